@@ -24,7 +24,7 @@ class BareCloth final : public MovingCloth {
   const QuadMesh* mesh() const override { return nullptr; }
   double time() const override { return static_cast<double>(n_steps_) * step_; }
   int substeps() const { return stepper_->substeps(); }
-  void observe(StageObserver* observer) override { stepper_->observe(observer); }
+  void observe(PartObserver* observer) override { stepper_->observe(observer); }
 
  private:
   ClothModel model_;

@@ -2,7 +2,6 @@
 
 #include "cli/command_table.h"
 #include "cli/deform_input.h"
-#include "cli/scene_input.h"
 #include "core/base/core_version.h"
 #include "core/error/surface_distance.h"
 #include "core/sweep/deform_cost.h"

@@ -6,6 +6,7 @@
 #include "cli/progress.h"
 #include "cli/scene_input.h"
 #include "core/base/core_version.h"
+#include "core/base/formatted.h"
 #include "core/error/error_norms.h"
 #include "core/error/restarts.h"
 #include "core/error/side_by_side.h"
@@ -86,7 +87,7 @@ double mean(const std::vector<double>& values) {
 Json row_json(const Contestant& contestant, const ContestantResult& result,
               const ReferenceLabel& against) {
   const Scene& scene = contestant.scene;
-  const double contact = result.parts_ms[static_cast<std::size_t>(Stage::contact)];
+  const double contact = result.parts_ms[static_cast<std::size_t>(Part::contact)];
   const double refinement = result.refinement_ms.empty() ? 0 : mean(result.refinement_ms);
   Json json = {{"scene", scene.name},
                {"method", json_method(scene.method)},
@@ -125,11 +126,10 @@ Json row_json(const Contestant& contestant, const ContestantResult& result,
 
 /// Names the first run, against which all of a bench are held.
 ReferenceLabel label_of_first(const Scene& scene, int n_vertices, const FrameOptions& options) {
-  char run[96];
-  std::snprintf(run, sizeof run, ", %d vertices, its own run of %g s", n_vertices,
-                options.duration);
   const double times[] = {options.begin, options.duration};
-  return {reference_id("together", scene, times), scene.name + run};
+  return {
+      reference_id("together", scene, times),
+      scene.name + formatted(", %d vertices, its own run of %g s", n_vertices, options.duration)};
 }
 
 Outcome print_together(const std::vector<Contestant>& contestants, const FrameOptions& options) {

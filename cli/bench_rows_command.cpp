@@ -1,5 +1,4 @@
 #include <cstdio>
-#include <sstream>
 
 #include "cli/command_table.h"
 #include "cli/source.h"

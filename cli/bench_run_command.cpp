@@ -9,6 +9,7 @@
 #include "cli/reference_folder.h"
 #include "cli/scene_input.h"
 #include "core/base/core_version.h"
+#include "core/base/formatted.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/error/run_comparison.h"
 #include "core/reference/chain_reference.h"
@@ -169,11 +170,8 @@ std::optional<Reference> run_reference(const Scene& scene, const std::vector<dou
 
 std::string millimetres(const std::vector<double>& lengths) {
   std::string text;
-  for (const double length : lengths) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%s%.3g", text.empty() ? "" : " / ", 1e3 * length);
-    text += number;
-  }
+  for (const double length : lengths)
+    text += (text.empty() ? "" : " / ") + three_digits(1e3 * length);
   return text + " mm";
 }
 

@@ -47,9 +47,8 @@ constexpr const char* kJsonHelp = "  --json                 print for machines\n
 /// All that Pleat has.
 CommandTable standard_commands();
 
-/// Takes the first word, the name of a command. Throws InputError that lists the names.
-///
-/// of  the command whose parts these are; empty for the first table
+/// Takes the first word, the name of a command of `of`, or of the first table. Throws InputError
+/// that lists the names.
 const Command& take_command(CommandTable table, Arguments& arguments, const std::string& of = "");
 
 /// The help that is asked for: by no words, by "help" before a command's name or "--help" behind

@@ -1,7 +1,6 @@
 #include "cli/deform_input.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include "cli/scene_input.h"

@@ -1,7 +1,5 @@
 #include "cli/overwriting.h"
 
-#include <string>
-
 #include "core/files/whole_file.h"
 
 namespace pleat {
@@ -13,10 +11,6 @@ Overwriting::Overwriting(Arguments& arguments) : is_asked_(arguments.flag("--ove
 void Overwriting::need(bool has_output, const char* options) const {
   if (is_asked_ && !has_output)
     throw InputError("--overwrite", std::string("expected ") + options + " beside it, got none");
-}
-
-void Overwriting::spare(const std::vector<std::filesystem::path>& files) {
-  spared_.insert(spared_.end(), files.begin(), files.end());
 }
 
 void Overwriting::check_spared(const std::filesystem::path& file) const {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,13 +20,14 @@ class Overwriting {
   explicit Overwriting(Arguments& arguments);
 
   bool is_asked() const { return is_asked_; }
-  /// Throws InputError when --overwrite was given and nothing is written.
-  ///
-  /// options  that name outputs, for the sentence
+  /// Throws InputError when --overwrite was given and nothing is written; `options` name outputs,
+  /// for the sentence.
   void need(bool has_output, const char* options) const;
 
   /// These files are read.
-  void spare(const std::vector<std::filesystem::path>& files);
+  void spare(const std::vector<std::filesystem::path>& files) {
+    spared_.insert(spared_.end(), files.begin(), files.end());
+  }
   /// Throws FileError for a file that is read.
   void check_spared(const std::filesystem::path& file) const;
   /// Throws FileError unless write_file may put a file there.
@@ -41,9 +41,7 @@ class Overwriting {
 /// The folder after --out for frames, which take the place of an earlier run's.
 class FrameFolder {
  public:
-  /// Takes --out and --overwrite.
-  ///
-  /// other  a further file that a run has there, or empty
+  /// Takes --out and --overwrite. A run may have a further file there.
   explicit FrameFolder(Arguments& arguments, std::string other = "");
 
   explicit operator bool() const { return !folder_.empty(); }  ///< --out was given

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "core/linalg/solve_report.h"
+#include "core/run/part_timer.h"
 #include "core/run/run_watch.h"
-#include "core/run/stage_timer.h"
 
 namespace pleat {
 
@@ -43,14 +43,10 @@ void finish(Work& work, const std::string& message) {
   }
 }
 
-/// Says each on stderr with what to try.
-///
-/// of  what was run, where that is not clear: a setting, an example
+/// Says each on stderr with what to try, and of which setting or example where that is not clear.
 void tell_warnings(std::span<const RunWarning> warnings, const std::string& of = "");
 
-/// Says on stderr in which step the numbers ended a run, why, and what comes of it.
-///
-/// n_steps  done before
+/// Says on stderr in which step, after so many, the numbers ended a run, why, and what comes of it.
 void print_early_end(std::int64_t n_steps, const SolveReport& report, const char* consequence);
 
 }  // namespace pleat

@@ -10,10 +10,6 @@ ReferenceFolder::ReferenceFolder(std::filesystem::path folder, Precision precisi
   check_writable(path("any"));
 }
 
-std::filesystem::path ReferenceFolder::path(const std::string& id) const {
-  return folder_ / (id + ".reference");
-}
-
 std::optional<Reference> ReferenceFolder::find(const std::string& id) {
   std::error_code error;
   if (!std::filesystem::exists(path(id), error)) return std::nullopt;

@@ -18,7 +18,7 @@ class ReferenceFolder : public ReferenceStore {
   void keep(const Reference& reference) override;
 
   /// Names the file that one is kept in.
-  std::filesystem::path path(const std::string& id) const;
+  std::filesystem::path path(const std::string& id) const { return folder_ / (id + ".reference"); }
 
  private:
   std::filesystem::path folder_;

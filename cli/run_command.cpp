@@ -113,8 +113,8 @@ RunSummary run_to_end(Simulation& simulation, Watchers& watchers) {
     summary.last_stretch = stretch(simulation.gauge(), simulation.state().positions);
     summary.largest_stretch = std::max(summary.largest_stretch, summary.last_stretch.largest);
     summary.rms_stretch_sum += summary.last_stretch.rms;
-    watch.look(simulation, step_report);
-    if (watchers.ledger) watchers.ledger->look();
+    watch.check(simulation, step_report);
+    if (watchers.ledger) watchers.ledger->record_step();
     // The last finite frame of a run that ended early is kept, unless it was written already.
     const bool is_frame = (simulation.n_steps() % steps_per_frame == 0) != ended;
     if (is_frame) add_frame(simulation, watchers, summary);
@@ -163,7 +163,7 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary, Watch
                {"built", built.built},
                {"built_bytes", built.bytes},
                {"left_out", built.left_out},
-               {"remark", simulation.remark()},
+               {"remark", simulation.stepper().remark()},
                {"status", name(summary.report.status)},
                {"message", summary.report.message},
                {"n_steps", simulation.n_steps()},
@@ -178,7 +178,7 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary, Watch
                {"largest_stretch", summary.largest_stretch}};
   if (scene.model.tearing) json["n_splits"] = simulation.tear_origins().size();
   json["warnings"] = json_warnings(summary.warnings);
-  if (const StrainLimitStage* limit = simulation.strain_limit()) {
+  if (const StrainLimitPass* limit = simulation.stepper().strain_limit()) {
     json["strain_limit_sweeps_per_step"] = static_cast<double>(limit->n_sweeps()) / n_steps;
     json["n_strain_limit_capped"] = limit->n_capped();
   }
@@ -187,7 +187,7 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary, Watch
     json["largest_crossings"] = summary.largest_crossings;
   }
   // Empty for steppers that treat all springs alike.
-  if (const auto springs = simulation.implicit_springs(); !springs.empty()) {
+  if (const auto springs = simulation.stepper().implicit_springs(); !springs.empty()) {
     std::string map;  // a 1 for each that is implicit, a 0 for others
     for (const char is_implicit : springs) map += is_implicit != 0 ? '1' : '0';
     const auto count = std::count(map.begin(), map.end(), '1');
@@ -197,7 +197,7 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary, Watch
                                 {"map", map}};
   }
   if (const auto bound = simulation.stability_bound()) json["stability_bound_s"] = *bound;
-  if (const auto contact = simulation.first_contact()) json["first_contact_s"] = *contact;
+  if (const auto contact = simulation.stepper().first_contact()) json["first_contact_s"] = *contact;
   if (watchers.ledger) json["energy"] = drift_json(watchers.ledger->account());
   json["core"] = core_version();
   return json;
@@ -243,7 +243,7 @@ void print_summary(const Simulation& simulation, const RunSummary& summary, cons
   std::printf("stretch at the end: rms %.3g %%, largest %.3g %%; largest of all %.3g %%\n",
               100 * summary.last_stretch.rms, 100 * summary.last_stretch.largest,
               100 * summary.largest_stretch);
-  if (const std::string remark = simulation.remark(); !remark.empty())
+  if (const std::string remark = simulation.stepper().remark(); !remark.empty())
     std::printf("method: %s\n", remark.c_str());
   if (!summary.report.message.empty() && !summary.report.ends_run())
     std::printf("%s\n", summary.report.message.c_str());
@@ -251,7 +251,7 @@ void print_summary(const Simulation& simulation, const RunSummary& summary, cons
   if (const auto springs = metrics.find("implicit_springs"); springs != metrics.end())
     std::printf("implicit springs: %d of %d, %.3g %%\n", springs->at("count").get<int>(),
                 springs->at("all").get<int>(), 100 * springs->at("share").get<double>());
-  if (const auto contact = simulation.first_contact())
+  if (const auto contact = simulation.stepper().first_contact())
     std::printf("first contact at %.10g s\n", *contact);
   if (scene.model.tearing)
     std::printf("tears: %zu vertices were split\n", simulation.tear_origins().size());

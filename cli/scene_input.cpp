@@ -3,8 +3,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <utility>
 
 namespace pleat {
 namespace {

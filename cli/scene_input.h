@@ -48,9 +48,8 @@ struct SceneInput : Source {
   std::string need() const;
 };
 
-/// Names of files in a scene are relative to its own folder.
-///
-/// read  gets the path of each file that is read; lives as long as the source
+/// Reads the files that a scene names relative to its own folder, and lists their paths in `read`,
+/// which lives as long as the source.
 FileSource files_beside(const std::string& scene_file, std::vector<std::filesystem::path>& read);
 
 /// Says on stderr what a reader of cloth has to tell; nothing where that is empty.

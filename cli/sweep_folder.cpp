@@ -3,6 +3,8 @@
 #include <array>
 #include <set>
 
+#include "core/base/formatted.h"
+#include "core/files/whole_file.h"
 #include "core/sweep/front_chart.h"
 
 namespace pleat {
@@ -32,9 +34,8 @@ std::string json_lines(const std::vector<BenchRow>& rows) {
 }
 
 std::string sweep_table(const Sweep& sweep) {
-  char duration[32];
-  std::snprintf(duration, sizeof duration, "%.4g", sweep.plan().duration);
-  std::string text = printable(sweep.plan().name) + ", " + duration + " s; errors against";
+  std::string text =
+      printable(sweep.plan().name) + formatted(", %.4g s; errors against", sweep.plan().duration);
   std::set<std::string> known;
   for (const BenchRow& row : sweep.rows()) {
     const ReferenceLabel& reference = row.reference;

@@ -167,7 +167,7 @@ PLANTED = {  # path: (text, expected violation or None)
     "core/mesh/upward.h": ('#include "core/../core/mesh/quad.h"\n', "expected a path from"),
     "core/mesh/angle.h": ("#include <core/base/vec.h>\n", "own files are included with"),
     "core/mesh/gone.h": ('#include "core/base/gone.h"\n', "there is no such file"),
-    "core/mesh/clock.cpp": ("#  include <chrono>\n", ":1: <chrono> is only for core/run/stage_timer.cpp"),
+    "core/mesh/clock.cpp": ("#  include <chrono>\n", ":1: <chrono> is only for core/run/part_timer.cpp"),
     "core/mesh/json.cpp": ("#include <nlohmann/json.hpp>\n", "<nlohmann/json.hpp> is only for"),
     "core/mesh/commented.cpp": ("// #include <iostream>\n", None),
     "core/mesh/printing.cpp": ('std::printf ("%d", 1);\n', ":1: printf() is only for cli/"),

@@ -192,7 +192,7 @@ class Simulation {
     int status = run_.step(0, [this] { frame(); });
     for (int i = 0; i < n && status == 0; ++i)
       status = run_.step(1, [this] {
-        ledger_->look();
+        ledger_->record_step();
         frame();
       });
     return status;
@@ -243,7 +243,7 @@ class Simulation {
     return guarded([&](val& envelope) {
       val list = val::array();
       for (const pleat::Collider& collider : running().scene().colliders) {
-        const auto shape = pleat::ContactStage::placed(collider, running().time());
+        const auto shape = pleat::ContactPass::placed(collider, running().time());
         val entry = json_value(pleat::json_solid(shape).dump());
         entry.set("shape", std::string(pleat::word_for(shape)));
         list.call<void>("push", entry);
@@ -305,7 +305,7 @@ class Simulation {
   /// 1 for each spring that is taken implicitly, 0 for others; empty where all are taken alike.
   val implicit_springs() const {
     if (!run_.is_loaded()) return view_of(kNoDoubles);
-    return view_of(running().implicit_springs());
+    return view_of(running().stepper().implicit_springs());
   }
   /// The substeps that imex would take of a step [s] when it is given so many and shall have such a
   /// share of the springs explicit, and the share that is implicit then, as the cloth is held now.

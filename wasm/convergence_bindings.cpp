@@ -11,15 +11,15 @@ namespace {
 
 using emscripten::val;
 
-/// The "study" (json_convergence) of what is wished (read_convergence_options). Meanwhile `hear` is
-/// told how much of it is done, from 0 to 1.
+/// The "study" (json_convergence) of what is wished (read_convergence_options). Meanwhile
+/// `on_progress` is told how much of it is done, from 0 to 1.
 std::string study_convergence(const std::string& fabrics_json, const std::string& scene_text,
-                              const std::string& wish_text, const val& hear) {
+                              const std::string& wish_text, const val& on_progress) {
   return pleat::guarded([&](val& envelope) {
     const pleat::Scene scene = pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json));
     const pleat::Json wish = pleat::parse_json(wish_text);
     pleat::ConvergenceOptions options = pleat::read_convergence_options(pleat::JsonReader(wish));
-    options.hear = [&](double done) { hear(done); };
+    options.on_progress = [&](double done) { on_progress(done); };
     const pleat::Json study = pleat::json_convergence(pleat::study_convergence(scene, options));
     envelope.set("study", pleat::json_value(study.dump()));
   });

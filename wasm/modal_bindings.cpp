@@ -2,7 +2,6 @@
 #include <emscripten/bind.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>

@@ -45,7 +45,7 @@ int PageRun::step(int n, const std::function<void()>& show) {
     running();
     for (int i = 0; i < n && !report_.ends_run(); ++i) {
       report_ = steps_->step();
-      if (!report_.ends_run() && !running().is_grabbed()) watch_->look(running(), report_);
+      if (!report_.ends_run() && !running().is_grabbed()) watch_->check(running(), report_);
     }
     show();
   } catch (const std::exception& error) {
@@ -68,10 +68,10 @@ void PageRun::put_warnings(val& envelope) const {
 void PageRun::put_costs(val& envelope) const {
   running();
   val parts = val::object();
-  for (int s = 0; s < kStageCount; ++s) {
-    const auto stage = static_cast<Stage>(s);
-    const double seconds = steps_->parts().total(stage);
-    if (seconds > 0) parts.set(std::string(name(stage)), 1e3 * seconds);
+  for (int s = 0; s < kPartCount; ++s) {
+    const auto part = static_cast<Part>(s);
+    const double seconds = steps_->parts().total(part);
+    if (seconds > 0) parts.set(std::string(name(part)), 1e3 * seconds);
   }
   envelope.set("parts_ms", parts);
   envelope.set("steps_ms", 1e3 * steps_->seconds());

@@ -5,7 +5,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "core/run/run_watch.h"
 #include "core/run/simulation.h"

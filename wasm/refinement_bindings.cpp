@@ -2,11 +2,9 @@
 // when memory grows.
 #include <emscripten/bind.h>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "core/base/check.h"
@@ -17,7 +15,6 @@
 #include "core/error/mesh_sampling.h"
 #include "core/error/self_crossings.h"
 #include "core/error/surface_distance.h"
-#include "core/model/stretch.h"
 #include "core/refinement/fit_monitor.h"
 #include "wasm/arrays.h"
 #include "wasm/envelope.h"
@@ -129,11 +126,11 @@ class GarmentRun {
   }
 
   /// The shown frame is the next one that the plan's monitor sees.
-  std::string look() {
+  std::string add_shown_frame() {
     return guarded([&](val& envelope) {
       if (!monitor_)
         throw pleat::InputError("/refinement", "expected a plan with limits, got none");
-      const pleat::FitReport fit = monitor_->look(shown_);
+      const pleat::FitReport fit = monitor_->add_frame(shown_);
       envelope.set("share", fit.share);
       envelope.set("worst_share", fit.worst_share);
       envelope.set("n_in_a_row", fit.n_in_a_row);
@@ -361,7 +358,7 @@ EMSCRIPTEN_BINDINGS(refinement) {
       .function("status", &GarmentRun::status)
       .function("costs", &GarmentRun::costs)
       .function("warnings", &GarmentRun::warnings)
-      .function("look", &GarmentRun::look)
+      .function("look", &GarmentRun::add_shown_frame)
       .function("compare", &GarmentRun::compare)
       .function("compareSurface", &GarmentRun::compare_surface)
       .function("addFolds", &GarmentRun::add_folds)

@@ -7,16 +7,14 @@
 
 namespace pleat {
 
-/// A broken promise inside the program. The text names the condition and its place in the source.
+/// A broken promise inside the program; the text names the condition and its place.
 class ContractError : public std::logic_error {
  public:
   using std::logic_error::logic_error;
 };
 
-/// Bad input from outside.
-///
-/// where  JSON pointer, file with line, or option name; may be empty for the input as a whole.
-/// what() one sentence: what was expected and what was found.
+/// Bad input from outside. `where` is a JSON pointer, a file with line, an option's name, or empty
+/// for the input as a whole; what() one sentence: what was expected and what was found.
 class InputError : public std::runtime_error {
  public:
   InputError(std::string where, const std::string& sentence)

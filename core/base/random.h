@@ -4,8 +4,7 @@
 
 namespace pleat {
 
-/// A seeded generator whose numbers are the same on every platform (the standard library's
-/// distributions are not).
+/// A seeded generator whose numbers are the same on every platform.
 ///
 /// Source: Steele, Lea & Flood, Fast splittable pseudorandom number generators (SplitMix64), OOPSLA
 /// 2014.

@@ -22,8 +22,7 @@ Mat3 half_turn(const Mat3& rotation) {
 ///     N = (tr S  d^T; d  S + S^T - tr S I),   d = (S_yz - S_zy, S_zx - S_xz, S_xy - S_yx).
 ///
 /// A small addition to its first entry favours w = cos(angle/2).
-RigidMotion nearest_rigid_motion(const Eigen::Ref<const Positions>& before,
-                                 const Eigen::Ref<const Positions>& after) {
+RigidMotion nearest_rigid_motion(const PositionsView& before, const PositionsView& after) {
   constexpr double kFavour = 1e-6;  // share of S; turns the result by about as many radians
   PLEAT_CHECK(before.cols() > 0 && before.cols() == after.cols(), "every place goes somewhere");
   RigidMotion motion;

@@ -24,7 +24,6 @@ Mat3 half_turn(const Mat3& rotation);
 ///
 /// Source: Horn, Closed-form solution of absolute orientation using unit quaternions, J. Optical
 /// Society of America A 4, 1987.
-RigidMotion nearest_rigid_motion(const Eigen::Ref<const Positions>& before,
-                                 const Eigen::Ref<const Positions>& after);
+RigidMotion nearest_rigid_motion(const PositionsView& before, const PositionsView& after);
 
 }  // namespace pleat

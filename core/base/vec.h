@@ -7,10 +7,16 @@ namespace pleat {
 
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
+using Vec9 = Eigen::Matrix<double, 9, 1>;
+using Mat9 = Eigen::Matrix<double, 9, 9>;
 
 /// One column per vertex [m], so that memory runs x y z x y z. Also used for velocities [m/s] and
 /// forces [N].
 using Positions = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+/// Arguments: `const PositionsView&` and `const VectorView&` are read, a PositionsRef is written.
+using PositionsView = Eigen::Ref<const Positions>;
+using PositionsRef = Eigen::Ref<Positions>;
+using VectorView = Eigen::Ref<const Eigen::VectorXd>;
 
 /// Rest coordinates, one column per vertex: along warp, along weft [m].
 using RestCoordinates = Eigen::Matrix<double, 2, Eigen::Dynamic>;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string>
 
 #include "core/base/vec.h"
@@ -12,8 +11,7 @@ namespace pleat {
 /// Tilt leans forward, obliquity lifts the right side, rotation brings the right side forward;
 /// those of thorax and head are measured from the world. Hip, knee, ankle, shoulder and elbow are
 /// measured from the segment above them. The path is that of the point midway between the hip
-/// joints: its height over the floor, how far it is ahead of the mean forward speed, and how far to
-/// the right.
+/// joints: its height, how far it is ahead of the mean speed, and how far to the right.
 enum class MotionChannel {
   pelvis_tilt,
   pelvis_obliquity,
@@ -56,10 +54,8 @@ struct BodyMotion {
   void validate() const;
 };
 
-/// The periodic cubic spline through a motion's keys: continuous up to the second derivative.
-///
-/// Source: Unser, Splines: a perfect fit for signal and image processing, IEEE Signal Processing
-/// Magazine 16(6), 1999.
+/// The periodic cubic spline through a motion's keys. Source: Unser, Splines: a perfect fit for
+/// signal and image processing, IEEE Signal Processing Magazine 16(6), 1999.
 class MotionCurves {
  public:
   explicit MotionCurves(const ChannelKeys& keys);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
 #include "core/base/check.h"
+#include "core/base/formatted.h"
 #include "core/body/body_section.h"
 
 namespace pleat {
@@ -34,10 +34,8 @@ using Ring = std::vector<VertexId>;
 /// Throws InputError unless low <= value <= high.
 void require(const char* measure, double value, double low, double high, const char* reason) {
   if (value >= low && value <= high) return;
-  char sentence[200];
-  std::snprintf(sentence, sizeof sentence, "expected %.3f to %.3f, %s, got %g", low, high, reason,
-                value);
-  throw InputError(std::string("/") + measure, sentence);
+  throw InputError(std::string("/") + measure,
+                   formatted("expected %.3f to %.3f, %s, got %g", low, high, reason, value));
 }
 
 double length_of(const std::vector<Vec3>& line) {
@@ -165,11 +163,10 @@ void require_clear(const Pattern& pattern, std::size_t begin, const Fitting& fit
   for (std::size_t q = begin; q < pattern.quads.size(); ++q) {
     const double distance = quad_clearance(pattern, q, fitting.body);
     if (distance >= gap) continue;
-    char sentence[160];
-    std::snprintf(sentence, sizeof sentence,
-                  "expected a garment that stays %.1f mm off the body, got one at %.1f mm with %g",
-                  1000 * gap, 1000 * distance, value);
-    throw InputError(std::string("/") + measure, sentence);
+    throw InputError(
+        std::string("/") + measure,
+        formatted("expected a garment that stays %.1f mm off the body, got one at %.1f mm with %g",
+                  1000 * gap, 1000 * distance, value));
   }
 }
 

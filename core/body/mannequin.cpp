@@ -1,7 +1,6 @@
 #include "core/body/mannequin.h"
 
 #include <algorithm>
-#include <initializer_list>
 
 namespace pleat {
 namespace {

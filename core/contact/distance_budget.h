@@ -39,12 +39,13 @@ class DistanceBudget {
 
   /// Looks at every solid that a vertex may meet on its way in this substep.
   ///
-  /// begin, end  of the way [m]
-  /// look        called as double(std::size_t solid); returns how far `begin` is from the solid's
-  ///             surface [m] where the solid is at the start, or minus infinity
+  /// begin, end   of the way [m]
+  /// distance_to  called as double(std::size_t solid); returns how far `begin` is from the solid's
+  ///              surface [m] where the solid is at the start, or minus infinity
   /// Allocates for a vertex that comes for the first time.
-  template <class Look>
-  void look_at_near(VertexId vertex, const Vec3& begin, const Vec3& end, const Look& look) {
+  template <class DistanceTo>
+  void visit_near(VertexId vertex, const Vec3& begin, const Vec3& end,
+                  const DistanceTo& distance_to) {
     if (static_cast<std::size_t>(vertex.value) >= vertices_.size()) add_vertices(vertex);
     Vertex& known = vertices_[static_cast<std::size_t>(vertex.value)];
     const Vec3 adrift = begin - drift_begin_;
@@ -54,7 +55,7 @@ class DistanceBudget {
     double* bounds = &bounds_[static_cast<std::size_t>(vertex.value) * hulls_.size()];
     for (std::size_t solid = 0; solid < hulls_.size(); ++solid)
       if (!(bounds[solid] > spent + spent_[solid]))
-        bounds[solid] = bound(known, solid, look(solid));
+        bounds[solid] = bound(known, solid, distance_to(solid));
   }
 
  private:

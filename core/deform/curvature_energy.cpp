@@ -32,7 +32,7 @@ Corners corners(const CurvatureElement& element) {
 
 /// Normal and its derivatives. With the sides a, b at the first corner and D = a x b,
 /// dD = a x db - b x da and dn = (I - n n^T) dD/|D|.
-Normal normal_at(const Corners& t, const Eigen::Ref<const Positions>& x) {
+Normal normal_at(const Corners& t, const PositionsView& x) {
   constexpr double kNoArea = 1e-12;  // sine at the first corner; below it the normal is noise
   const Vec3 a = x.col(t[1]) - x.col(t[0]);
   const Vec3 b = x.col(t[2]) - x.col(t[0]);
@@ -49,7 +49,7 @@ Normal normal_at(const Corners& t, const Eigen::Ref<const Positions>& x) {
 
 /// Sum of w_i x_i: a column for each of ww, ff, wf. Weights add up to nothing, so that a vertex may
 /// be the origin: cloth that lies far off keeps its digits.
-Mat3 second_derivatives(const CurvatureElement& element, const Eigen::Ref<const Positions>& x) {
+Mat3 second_derivatives(const CurvatureElement& element, const PositionsView& x) {
   const Vec3 origin = x.col(element.vertices[0]);
   Mat3 k = Mat3::Zero();
   for (std::size_t i = 1; i < element.vertices.size(); ++i)
@@ -60,16 +60,15 @@ Mat3 second_derivatives(const CurvatureElement& element, const Eigen::Ref<const 
 
 bool is_flat(const CurvatureElement& element) { return element.normal_part.isZero(0); }
 
-Mat3 residuals(const CurvatureElement& element, const Normal& normal,
-               const Eigen::Ref<const Positions>& x) {
+Mat3 residuals(const CurvatureElement& element, const Normal& normal, const PositionsView& x) {
   return second_derivatives(element, x) - normal.n * element.normal_part.transpose();
 }
 
-Normal normal_if_needed(const CurvatureElement& element, const Eigen::Ref<const Positions>& x) {
+Normal normal_if_needed(const CurvatureElement& element, const PositionsView& x) {
   return is_flat(element) ? Normal{} : normal_at(corners(element), x);
 }
 
-double energy_of(const CurvatureElement& element, const Eigen::Ref<const Positions>& x) {
+double energy_of(const CurvatureElement& element, const PositionsView& x) {
   const Mat3 r = residuals(element, normal_if_needed(element, x), x);
   return element.area * kTensorWeights.dot(r.colwise().squaredNorm().transpose());
 }
@@ -121,15 +120,14 @@ std::vector<CurvatureElement> curvature_elements(const TriangleMesh& mesh) {
 }
 
 double curvature_energy(std::span<const CurvatureElement> elements,
-                        const Eigen::Ref<const Positions>& positions) {
+                        const PositionsView& positions) {
   double energy = 0;
   for (const CurvatureElement& element : elements) energy += energy_of(element, positions);
   return energy;
 }
 
 void add_curvature_shares(std::span<const CurvatureElement> elements,
-                          const Eigen::Ref<const Positions>& positions,
-                          Eigen::Ref<Eigen::VectorXd> shares) {
+                          const PositionsView& positions, Eigen::Ref<Eigen::VectorXd> shares) {
   for (const CurvatureElement& element : elements) {
     const double third = energy_of(element, positions) / 3;
     for (const VertexId v : corners(element)) shares[v] += third;
@@ -137,8 +135,7 @@ void add_curvature_shares(std::span<const CurvatureElement> elements,
 }
 
 void add_curvature_gradient(std::span<const CurvatureElement> elements, double factor,
-                            const Eigen::Ref<const Positions>& positions,
-                            Eigen::Ref<Positions> gradient) {
+                            const PositionsView& positions, PositionsRef gradient) {
   for (const CurvatureElement& element : elements) {
     const Normal normal = normal_if_needed(element, positions);
     const Mat3 pull = 2 * factor * element.area * residuals(element, normal, positions) *

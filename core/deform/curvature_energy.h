@@ -26,18 +26,15 @@ std::vector<CurvatureElement> curvature_elements(const TriangleMesh& mesh);
 
 /// Sum of A (|r_ww|^2 + |r_ff|^2 + 2 |r_wf|^2). A triangle without area has no normal: there b n is
 /// left out.
-double curvature_energy(std::span<const CurvatureElement> elements,
-                        const Eigen::Ref<const Positions>& positions);
+double curvature_energy(std::span<const CurvatureElement> elements, const PositionsView& positions);
 
 /// Adds each triangle's share in thirds to its corners, one number per vertex.
 void add_curvature_shares(std::span<const CurvatureElement> elements,
-                          const Eigen::Ref<const Positions>& positions,
-                          Eigen::Ref<Eigen::VectorXd> shares);
+                          const PositionsView& positions, Eigen::Ref<Eigen::VectorXd> shares);
 
 /// Adds factor times the derivative of the energy [1/m].
 void add_curvature_gradient(std::span<const CurvatureElement> elements, double factor,
-                            const Eigen::Ref<const Positions>& positions,
-                            Eigen::Ref<Positions> gradient);
+                            const PositionsView& positions, PositionsRef gradient);
 
 /// The share of sum_i w_i x_i in 2 J^T W J, J = dr/dx: the lower triangle of a matrix n x n for
 /// each coordinate alike [1/m^2]. It does not depend on the positions.

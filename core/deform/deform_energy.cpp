@@ -72,7 +72,7 @@ void DeformEnergy::hold(const std::vector<VertexId>& vertices) {
   for (const VertexId v : vertices) is_free_[v] = 0;
 }
 
-DeformTerms DeformEnergy::terms(const Eigen::Ref<const Positions>& positions) const {
+DeformTerms DeformEnergy::terms(const PositionsView& positions) const {
   PLEAT_CHECK(positions.cols() == rest_.cols(), "a position for each vertex");
   DeformTerms terms;
   terms.recovery =
@@ -90,7 +90,7 @@ DeformTerms DeformEnergy::terms(const Eigen::Ref<const Positions>& positions) co
   return terms;
 }
 
-Eigen::VectorXd DeformEnergy::bending_shares(const Eigen::Ref<const Positions>& positions) const {
+Eigen::VectorXd DeformEnergy::bending_shares(const PositionsView& positions) const {
   Eigen::VectorXd shares = Eigen::VectorXd::Zero(positions.cols());
   add_curvature_shares(curvatures_, positions, shares);
   for (const Dihedral& dihedral : dihedrals_) {
@@ -101,7 +101,7 @@ Eigen::VectorXd DeformEnergy::bending_shares(const Eigen::Ref<const Positions>& 
   return shares;
 }
 
-void DeformEnergy::add_stretch_gradient(double weight, const Eigen::Ref<const Positions>& positions,
+void DeformEnergy::add_stretch_gradient(double weight, const PositionsView& positions,
                                         Positions& gradient) const {
   Positions forces = Positions::Zero(3, positions.cols());
   add_membrane_forces(membrane_, positions, forces);
@@ -116,7 +116,7 @@ void DeformEnergy::add_stretch_gradient(double weight, const Eigen::Ref<const Po
   }
 }
 
-void DeformEnergy::add_bending_gradient(double weight, const Eigen::Ref<const Positions>& positions,
+void DeformEnergy::add_bending_gradient(double weight, const PositionsView& positions,
                                         Positions& gradient) const {
   add_curvature_gradient(curvatures_, weight, positions, gradient);
   for (const Dihedral& dihedral : dihedrals_) {
@@ -128,7 +128,7 @@ void DeformEnergy::add_bending_gradient(double weight, const Eigen::Ref<const Po
 }
 
 Positions DeformEnergy::gradient(const DeformWeights& weights,
-                                 const Eigen::Ref<const Positions>& positions) const {
+                                 const PositionsView& positions) const {
   Positions gradient = Positions::Zero(3, positions.cols());
   if (weights.stretch > 0) add_stretch_gradient(weights.stretch, positions, gradient);
   if (weights.recovery > 0)
@@ -157,7 +157,7 @@ SparseMatrix DeformEnergy::constant_metric(const DeformWeights& weights) const {
   return lower;
 }
 
-void DeformEnergy::add_stretch_metric(double weight, const Eigen::Ref<const Positions>& positions,
+void DeformEnergy::add_stretch_metric(double weight, const PositionsView& positions,
                                       SparseMatrix& lower) const {
   for (const MembraneElement& element : membrane_.elements) {
     const auto block =
@@ -179,7 +179,7 @@ void DeformEnergy::add_stretch_metric(double weight, const Eigen::Ref<const Posi
   }
 }
 
-void DeformEnergy::add_turn_metric(double weight, const Eigen::Ref<const Positions>& positions,
+void DeformEnergy::add_turn_metric(double weight, const PositionsView& positions,
                                    SparseMatrix& lower) const {
   for (const Dihedral& dihedral : dihedrals_) {
     const HingeTurn turn = hinge_turn(dihedral.vertices, positions);
@@ -195,7 +195,7 @@ void DeformEnergy::add_turn_metric(double weight, const Eigen::Ref<const Positio
 }
 
 SparseMatrix DeformEnergy::metric(const DeformWeights& weights,
-                                  const Eigen::Ref<const Positions>& positions) const {
+                                  const PositionsView& positions) const {
   SparseMatrix lower = constant_metric(weights);
   if (weights.stretch > 0) add_stretch_metric(weights.stretch, positions, lower);
   if (weights.bending > 0) add_turn_metric(weights.bending, positions, lower);

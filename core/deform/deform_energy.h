@@ -54,22 +54,20 @@ class DeformEnergy {
 
   const Positions& rest_positions() const { return rest_; }
 
-  DeformTerms terms(const Eigen::Ref<const Positions>& positions) const;
+  DeformTerms terms(const PositionsView& positions) const;
 
   /// E_A split among the vertices: where a shape is wrinkled.
-  Eigen::VectorXd bending_shares(const Eigen::Ref<const Positions>& positions) const;
+  Eigen::VectorXd bending_shares(const PositionsView& positions) const;
 
   /// dE/dx [1/m].
-  Positions gradient(const DeformWeights& weights,
-                     const Eigen::Ref<const Positions>& positions) const;
+  Positions gradient(const DeformWeights& weights, const PositionsView& positions) const;
 
   /// The lower triangle of a matrix H, n x n [1/m^2], with which a step of least energy is about
   /// -H^-1 dE/dx, one coordinate like the other: the mean over directions of 2 J^T W J, with the
   /// residuals' derivatives J, and of what tension adds, as cloth under tension resists moving
   /// sideways. Of the bending of a shape that is not flat at rest, the share that turns with the
   /// normal is left out. Positive semidefinite; entries of terms without weight are missing.
-  SparseMatrix metric(const DeformWeights& weights,
-                      const Eigen::Ref<const Positions>& positions) const;
+  SparseMatrix metric(const DeformWeights& weights, const PositionsView& positions) const;
 
  private:
   struct EdgeLength {
@@ -83,15 +81,13 @@ class DeformEnergy {
 
   void build_sums(const TriangleMesh& mesh);
   void build_integrals(const TriangleMesh& mesh);
-  void add_stretch_gradient(double weight, const Eigen::Ref<const Positions>& positions,
+  void add_stretch_gradient(double weight, const PositionsView& positions,
                             Positions& gradient) const;
-  void add_bending_gradient(double weight, const Eigen::Ref<const Positions>& positions,
+  void add_bending_gradient(double weight, const PositionsView& positions,
                             Positions& gradient) const;
   SparseMatrix constant_metric(const DeformWeights& weights) const;
-  void add_stretch_metric(double weight, const Eigen::Ref<const Positions>& positions,
-                          SparseMatrix& lower) const;
-  void add_turn_metric(double weight, const Eigen::Ref<const Positions>& positions,
-                       SparseMatrix& lower) const;
+  void add_stretch_metric(double weight, const PositionsView& positions, SparseMatrix& lower) const;
+  void add_turn_metric(double weight, const PositionsView& positions, SparseMatrix& lower) const;
 
   Positions rest_;
   double unit_ = 1;

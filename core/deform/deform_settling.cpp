@@ -38,8 +38,4 @@ void DeformSettling::keep_lower(SolveReport from_rest) {
   stage_ = Stage::done;
 }
 
-void DeformSettling::end_trial() {
-  if (is_on_trial()) end_way({SolveStatus::not_converged, 0, 0, "the way from rest was given up"});
-}
-
 }  // namespace pleat

@@ -24,7 +24,10 @@ class DeformSettling {
   /// True on the way from rest, whose shapes are worth nothing unless it ends lower.
   bool is_on_trial() const { return stage_ == Stage::from_rest; }
   /// Ends a way from rest where it is and keeps the shape of lower energy; nothing on the other.
-  void end_trial();
+  void end_trial() {
+    if (is_on_trial())
+      end_way({SolveStatus::not_converged, 0, 0, "the way from rest was given up"});
+  }
 
   /// Report of the way to the shape that was kept; iterations are those of both ways.
   const SolveReport& report() const { return report_; }

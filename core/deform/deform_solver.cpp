@@ -27,9 +27,8 @@ constexpr int kPatienceWithHalving = 2;  // L-BFGS halves a step now and then an
 /// triangle has collapsed, which another factor does not know either, but corrections learn.
 constexpr int kFactorsInVain = 2;
 
-/// Many short steps can still lead far: the end is a short one after which less than this share of
-/// the energy is left to gain (left_to_gain). Where the least energy is nothing every step gains
-/// most of it, and the end is a step of kNoStep, in which files and screens see no change.
+/// The end is a short step after which less than this share of the energy is left to gain
+/// (left_to_gain), or one of kNoStep, in which files and screens see no change.
 constexpr double kWorthMore = 1e-7;
 constexpr double kNoStep = 1e-8;  // DeformStep::relative_step
 
@@ -149,7 +148,7 @@ SolveReport DeformSolver::linearise() {
   ++n_linearisations_;
   SparseMatrix constrained;
   {
-    const StageScope stage(observer_, Stage::assembly);
+    const PartScope scope(observer_, Part::assembly);
     metric_ = energy_.metric(weights_, positions_);
     metric_.diagonal().array() += damping_ * metric_.diagonal().mean();
     constrained = metric_;
@@ -158,7 +157,7 @@ SolveReport DeformSolver::linearise() {
         if (is_held_[entry.row()] != 0 || is_held_[column] != 0)
           entry.valueRef() = entry.row() == column ? 1 : 0;
   }
-  const StageScope stage(observer_, Stage::factor);
+  const PartScope scope(observer_, Part::factor);
   corrections_.clear();
   last_change_.resize(3, 0);
   n_with_factor_ = 0;
@@ -171,7 +170,7 @@ SolveReport DeformSolver::linearise() {
 }
 
 Positions DeformSolver::free_gradient() const {
-  const StageScope stage(observer_, Stage::forces);
+  const PartScope scope(observer_, Part::forces);
   Positions gradient = energy_.gradient(weights_, positions_);
   for (const VertexId v : held_) gradient.col(v).setZero();
   return gradient;
@@ -179,7 +178,7 @@ Positions DeformSolver::free_gradient() const {
 
 /// The shape in which the linearised problem is at rest once what is held has moved.
 Positions DeformSolver::foreseen(const Positions& moves) {
-  const StageScope stage(observer_, Stage::solve);
+  const PartScope scope(observer_, Part::solve);
   Positions change = Positions::Zero(3, positions_.cols());
   for (std::size_t k = 0; k < held_.size(); ++k)
     change.col(held_[k]) = moves.col(static_cast<Eigen::Index>(k));
@@ -195,7 +194,7 @@ void DeformSolver::take_if_lower(Positions shape) {
   if (energy_.terms(shape).weighted(weights_) < energy()) positions_ = std::move(shape);
 }
 
-void DeformSolver::move_held(const Eigen::Ref<const Positions>& places) {
+void DeformSolver::move_held(const PositionsView& places) {
   PLEAT_CHECK(places.cols() == static_cast<Eigen::Index>(held_.size()), "a place per held vertex");
   const Positions moves = places - held_places();
   if (moves.isZero(0)) return;
@@ -207,7 +206,7 @@ void DeformSolver::move_held(const Eigen::Ref<const Positions>& places) {
   take_if_lower(std::move(followed));
 }
 
-SolveReport DeformSolver::follow(const Eigen::Ref<const Positions>& places) {
+SolveReport DeformSolver::follow(const PositionsView& places) {
   move_held(places);
   const int n_before = n_linearisations_;
   double before = energy();
@@ -229,7 +228,7 @@ Positions DeformSolver::held_places() const {
 }
 
 /// The metric is the same for a shape however turned: a factor made before serves after.
-void DeformSolver::restart(const Eigen::Ref<const Positions>& places) {
+void DeformSolver::restart(const PositionsView& places) {
   const Positions bent = energy_.rest_positions() + bulges_;
   positions_ = bent;
   for (const VertexId v : held_) positions_.col(v) = energy_.rest_positions().col(v);
@@ -243,12 +242,8 @@ void DeformSolver::restart(const Eigen::Ref<const Positions>& places) {
   if (motion.angle() > kLargeTurn) take_if_lower(motion.of(bent));
 }
 
-void DeformSolver::remember(const Positions& gradient) {
-  if (last_change_.cols() > 0) corrections_.remember(last_change_, gradient - last_gradient_);
-}
-
 Positions DeformSolver::descent(const Positions& gradient) {
-  const StageScope stage(observer_, Stage::solve);
+  const PartScope scope(observer_, Part::solve);
   return corrections_.descent(gradient, [this](const Positions& q) {
     Eigen::MatrixXd solution(q.cols(), 3);
     solver_->solve(q.transpose(), solution);
@@ -260,7 +255,7 @@ Positions DeformSolver::descent(const Positions& gradient) {
 /// nothing moved, if it does not.
 bool DeformSolver::descend(const Positions& direction, double slope, double before,
                            DeformStep& step) {
-  const StageScope stage(observer_, Stage::forces);
+  const PartScope scope(observer_, Part::forces);
   const Positions start = positions_;
   double share = 1;
   for (step.halvings = 0; step.halvings <= kMaxHalvings; ++step.halvings, share /= 2) {

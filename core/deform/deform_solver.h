@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/base/stage_observer.h"
+#include "core/base/part_observer.h"
 #include "core/deform/deform_energy.h"
 #include "core/linalg/lbfgs.h"
 #include "core/linalg/linear_solver.h"
@@ -60,16 +60,16 @@ class DeformSolver {
 
   /// Moves what is held, one column per held vertex in their order [m]. The rest follows as far as
   /// the factor at hand foresees.
-  void move_held(const Eigen::Ref<const Positions>& places);
+  void move_held(const PositionsView& places);
 
   /// A hand's move, bounded in time: move_held and a few steps, one of which may linearise.
-  SolveReport follow(const Eigen::Ref<const Positions>& places);
+  SolveReport follow(const PositionsView& places);
 
   /// Goes back to rest, bent by a thousandth of its size, the same way each time, as a flat shape
   /// can be a saddle; from there what is held moves to these places. Where that turns it by more
   /// than 30 degrees on the whole, rest turned along with it is the other start, and the one of
   /// lower energy is taken.
-  void restart(const Eigen::Ref<const Positions>& places);
+  void restart(const PositionsView& places);
   /// Goes back to rest and moves what is held to its present places.
   void restart() { restart(held_places()); }
 
@@ -109,7 +109,7 @@ class DeformSolver {
   DeformTerms terms() const { return energy_.terms(positions_); }
   double energy() const { return terms().weighted(weights_); }
 
-  void observe(StageObserver* observer) { observer_ = observer; }
+  void observe(PartObserver* observer) { observer_ = observer; }
 
  private:
   static constexpr std::size_t kMaxCorrections = 20;
@@ -121,7 +121,9 @@ class DeformSolver {
   Positions free_gradient() const;
   Positions foreseen(const Positions& moves);
   void take_if_lower(Positions shape);
-  void remember(const Positions& gradient);
+  void remember(const Positions& gradient) {
+    if (last_change_.cols() > 0) corrections_.remember(last_change_, gradient - last_gradient_);
+  }
   Positions descent(const Positions& gradient);
   bool descend(const Positions& direction, double slope, double before, DeformStep& step);
   void judge(const DeformStep& step, double before);
@@ -151,7 +153,7 @@ class DeformSolver {
 
   std::vector<DeformStep> steps_;
   bool converged_ = false;
-  StageObserver* observer_ = nullptr;
+  PartObserver* observer_ = nullptr;
 };
 
 }  // namespace pleat

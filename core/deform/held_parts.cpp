@@ -29,9 +29,8 @@ std::vector<int> lowest_in_part(const TriangleMesh& mesh) {
   return lowest;
 }
 
-/// The place farthest from the first spans the line from which the others are measured.
-///
-/// size  of the part at rest [m]
+/// The place farthest from the first spans the line from which the others are measured; the size is
+/// the part's at rest [m].
 Hold hold_of(const std::vector<Vec3>& places, double size) {
   constexpr double kSame = 1e-6;  // share of the size; files often carry six digits
   constexpr double kLastDigits = 4 * std::numeric_limits<double>::epsilon();
@@ -60,7 +59,7 @@ double size_of(const std::vector<VertexId>& part, const Positions& rest) {
 }  // namespace
 
 std::vector<HeldPart> held_parts(const TriangleMesh& mesh, const std::vector<VertexId>& held,
-                                 const Eigen::Ref<const Positions>& targets) {
+                                 const PositionsView& targets) {
   PLEAT_CHECK(static_cast<Eigen::Index>(held.size()) == targets.cols(),
               "every held vertex has a place");
   std::vector<int> place_of(static_cast<std::size_t>(mesh.n_vertices()), -1);

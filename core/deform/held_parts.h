@@ -31,6 +31,6 @@ struct HeldPart {
 ///          size at rest, and on a line within a millionth of their own extent, or where no digits
 ///          are left to tell them apart
 std::vector<HeldPart> held_parts(const TriangleMesh& mesh, const std::vector<VertexId>& held,
-                                 const Eigen::Ref<const Positions>& targets);
+                                 const PositionsView& targets);
 
 }  // namespace pleat

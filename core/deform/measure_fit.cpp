@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <set>
 #include <string>
 
 #include "core/base/check.h"
+#include "core/base/formatted.h"
 #include "core/deform/fabric_weights.h"
 
 namespace pleat {
@@ -38,9 +38,8 @@ double standard_deviation(const std::vector<CurvePoint>& points) {
 
 void check_measurement(const MeasureField& measure, double value) {
   if (value > 0 && std::isfinite(value)) return;
-  char sentence[64];
-  std::snprintf(sentence, sizeof sentence, "expected a finite number > 0, got %g", value);
-  throw InputError("/" + std::string(measure.name), sentence);
+  throw InputError("/" + std::string(measure.name),
+                   formatted("expected a finite number > 0, got %g", value));
 }
 
 }  // namespace

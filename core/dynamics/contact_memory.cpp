@@ -126,10 +126,6 @@ void ContactMemory::remember(std::span<const Touch> touches, const Positions& po
   add_forces(touches_, state.velocities, h);
 }
 
-void ContactMemory::keep(const State& state) {
-  if (has_forces()) solved_velocities_ = state.velocities;
-}
-
 void ContactMemory::add(std::span<const Touch> touches, const State& state, double h) {
   is_touched_ = is_touched_ || !touches.empty();
   if (!has_forces()) return;

@@ -8,19 +8,15 @@
 
 namespace pleat {
 
-/// Forces with which solids held vertices in one substep may be among the forces of the next. The
-/// equations of a stepper that solves for the end of a substep then contain the support:
-/// cloth comes to rest in equilibrium instead of falling into the solid and being put back in every
-/// substep.
+/// Forces with which solids held vertices in one substep may be among the forces of the next: cloth
+/// then rests in equilibrium instead of falling into the solid and being put back in every substep.
 enum class ContactForces { forgotten, remembered };
 
 /// Knows from one substep to the next how solids touched the cloth, and with what force they held
-/// each vertex.
-///
-/// Source: docs/methods/contact.md.
+/// each vertex. Source: docs/methods/contact.md.
 class ContactMemory {
  public:
-  using Touch = ContactStage::Touch;
+  using Touch = ContactPass::Touch;
 
   /// Forces are remembered only where the model has solids on which cloth rests.
   ContactMemory(const ClothModel& model, ContactForces wanted);
@@ -39,7 +35,9 @@ class ContactMemory {
                 const State& state, double h, const Eigen::VectorXd& resistances);
 
   /// Lets a state be corrected once more in the substep, and adds what contact did.
-  void keep(const State& state);
+  void keep(const State& state) {
+    if (has_forces()) solved_velocities_ = state.velocities;
+  }
   void add(std::span<const Touch> touches, const State& state, double h);
 
   /// Goes back to a substep that began with these forces.

@@ -17,10 +17,6 @@ bool is_in_range(const NumberField<Number>& field, const MethodOptions& method) 
 
 }  // namespace
 
-const char* WordField::word(const MethodOptions& method) const {
-  return get(method) < words.size() ? words[get(method)] : "";
-}
-
 bool MethodSetting::is_idle(const MethodOptions& method) const {
   bool depends = false;
   for (const Beside& known : beside) {

@@ -43,7 +43,9 @@ struct WordField {
   std::size_t (*get)(const MethodOptions& method);
   void (*set)(MethodOptions& method, std::size_t value);
 
-  const char* word(const MethodOptions& method) const;
+  const char* word(const MethodOptions& method) const {
+    return get(method) < words.size() ? words[get(method)] : "";
+  }
 };
 
 template <auto member>

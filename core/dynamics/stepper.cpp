@@ -1,8 +1,7 @@
 #include "core/dynamics/stepper.h"
 
-#include <cstdio>
-
 #include "core/base/check.h"
+#include "core/base/formatted.h"
 #include "core/linalg/make_linear_solver.h"
 #include "core/model/elasticity.h"
 #include "core/model/hanging_vertices.h"
@@ -21,13 +20,11 @@ VertexId first_lost(const State& state) {
 }
 
 SolveReport lost_report(VertexId vertex, double time) {
-  char sentence[120];
-  std::snprintf(sentence, sizeof sentence,
-                "vertex %d diverged in the step from %.6g s: beyond %.0g m or m/s, or not finite",
-                vertex.value, time, kLargestCoordinate);
   SolveReport report;
   report.status = SolveStatus::not_finite;
-  report.message = sentence;
+  report.message =
+      formatted("vertex %d diverged in the step from %.6g s: beyond %.0g m or m/s, or not finite",
+                vertex.value, time, kLargestCoordinate);
   return report;
 }
 
@@ -45,7 +42,7 @@ Stepper::Stepper(ClothModel& model, const MethodOptions& options, int substeps,
   if (model.strain_limit) strain_limit_.emplace(model);
 }
 
-void Stepper::start_from_contact_forces(const Eigen::Ref<const Positions>& forces) {
+void Stepper::start_from_contact_forces(const PositionsView& forces) {
   if (!contact_memory_.has_forces()) return;
   PLEAT_CHECK(forces.cols() == model_.n_vertices(), "a contact force for every vertex");
   contact_memory_.forces() = forces;
@@ -90,7 +87,7 @@ SolveReport Stepper::advance(State& state, double time) {
 
 SolveReport Stepper::substep_in_world(State& state, double time_end, double h) {
   if (model_.contact) {
-    const StageScope scope(observer_, Stage::contact);
+    const PartScope scope(observer_, Part::contact);
     model_.contact->begin_substep(time_end - h, time_end);
     contact_memory_.begin_substep();
   }
@@ -112,27 +109,27 @@ std::unique_ptr<LinearSolver> Stepper::make_solver(const MethodOptions& options,
 }
 
 // NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is handed on to be written through.
-void Stepper::set_steady_forces(Eigen::Ref<Positions> forces) const {
+void Stepper::set_steady_forces(PositionsRef forces) const {
   forces.setZero();
   add_gravity(model_, forces);
   if (contact_memory_.has_forces()) forces += contact_memory_.forces();
 }
 
 // NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is handed on to be written through.
-void Stepper::set_external_forces(const State& state, Eigen::Ref<Positions> forces) {
-  const StageScope scope(observer_, Stage::forces);
+void Stepper::set_external_forces(const State& state, PositionsRef forces) {
+  const PartScope scope(observer_, Part::forces);
   set_steady_forces(forces);
   if (model_.air) model_.air->add_forces(state.positions, state.velocities, model_.hanging, forces);
 }
 
-std::span<const ContactStage::Touch> Stepper::touch_solids(State& state) {
+std::span<const ContactPass::Touch> Stepper::touch_solids(State& state) {
   return model_.contact->resolve(positions_begin_, contact_memory_.exempt(), state.positions,
                                  state.velocities);
 }
 
 void Stepper::resolve_contacts(State& state, double h, const Eigen::VectorXd& resistances,
                                double travel_share) {
-  const StageScope scope(observer_, Stage::contact);
+  const PartScope scope(observer_, Part::contact);
   contact_memory_.let_go(state, h, resistances, travel_share);
   contact_memory_.remember(touch_solids(state), positions_begin_, state, h, resistances);
 }
@@ -142,10 +139,10 @@ void Stepper::limit_among_contacts(State& state, double h, double travel_share) 
   constexpr int kMaxRounds = 3;
   for (int round = 0; round < kMaxRounds && strain_limit_->is_exceeded(state.positions); ++round) {
     {
-      const StageScope scope(observer_, Stage::strain_limit);
+      const PartScope scope(observer_, Part::strain_limit);
       strain_limit_->limit_again(state, travel_share * h, model_.contact->touches());
     }
-    const StageScope scope(observer_, Stage::contact);
+    const PartScope scope(observer_, Part::contact);
     contact_memory_.keep(state);
     contact_memory_.add(touch_solids(state), state, h);
   }
@@ -154,7 +151,7 @@ void Stepper::limit_among_contacts(State& state, double h, double travel_share) 
 void Stepper::correct(State& state, double time_end, double h, const Eigen::VectorXd& resistances,
                       double travel_share) {
   if (strain_limit_) {
-    const StageScope scope(observer_, Stage::strain_limit);
+    const PartScope scope(observer_, Part::strain_limit);
     strain_limit_->limit(state, travel_share * h);
   }
   if (model_.contact) resolve_contacts(state, h, resistances, travel_share);

@@ -4,13 +4,12 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
-#include "core/base/stage_observer.h"
+#include "core/base/part_observer.h"
 #include "core/dynamics/contact_memory.h"
 #include "core/dynamics/first_contact.h"
 #include "core/dynamics/method_options.h"
-#include "core/dynamics/strain_limit_stage.h"
+#include "core/dynamics/strain_limit_pass.h"
 #include "core/model/cloth_model.h"
 #include "core/model/state.h"
 
@@ -20,8 +19,7 @@ namespace pleat {
 /// diverged, though its numbers are finite still.
 constexpr double kLargestCoordinate = 1e12;
 
-/// Advances a state by one step. Every stepper works on the same model, so that they can be
-/// compared.
+/// Advances a state by one step. Every stepper works on the same model.
 ///
 /// The model is shared and outlives the stepper. After its pins changed in number or vertex, call
 /// `refresh`; after its rest lengths changed, `refresh_rest_lengths`; pins that only move need
@@ -47,7 +45,7 @@ class Stepper {
   const Positions& contact_forces() const { return contact_memory_.forces(); }
   /// Takes these for the forces of the substep before the first. Of no effect where none are
   /// remembered.
-  void start_from_contact_forces(const Eigen::Ref<const Positions>& forces);
+  void start_from_contact_forces(const PositionsView& forces);
 
   /// Says for each spring of the model whether it is taken implicitly; empty for steppers that
   /// treat all alike. Valid until the next call that changes the stepper.
@@ -62,9 +60,9 @@ class Stepper {
   std::optional<double> first_contact() const { return first_contact_.time(); }
 
   /// Null where the model has none.
-  const StrainLimitStage* strain_limit() const { return strain_limit_ ? &*strain_limit_ : nullptr; }
+  const StrainLimitPass* strain_limit() const { return strain_limit_ ? &*strain_limit_ : nullptr; }
 
-  void observe(StageObserver* observer) { observer_ = observer; }
+  void observe(PartObserver* observer) { observer_ = observer; }
   const MethodOptions& options() const { return options_; }
   int substeps() const { return substeps_; }
 
@@ -92,10 +90,10 @@ class Stepper {
                double travel_share = 1);
 
   /// Weight and remembered contact [N], without the air's forces.
-  void set_steady_forces(Eigen::Ref<Positions> forces) const;
+  void set_steady_forces(PositionsRef forces) const;
   /// Everything but elasticity and damping: weight, remembered contact, air [N]. Nothing where
   /// vertices hang.
-  void set_external_forces(const State& state, Eigen::Ref<Positions> forces);
+  void set_external_forces(const State& state, PositionsRef forces);
 
   /// Bounds an iterative solver's way to the end of a substep; reaching it is reported as not
   /// converged.
@@ -107,7 +105,7 @@ class Stepper {
                                                    int max_iterations = 1);
 
   ClothModel& model_;
-  StageObserver* observer_ = nullptr;
+  PartObserver* observer_ = nullptr;
   ContactMemory contact_memory_;
   Positions positions_begin_;  // start of the substep, set by steppers that call correct
 
@@ -116,11 +114,11 @@ class Stepper {
   void resolve_contacts(State& state, double h, const Eigen::VectorXd& resistances,
                         double travel_share);
   void limit_among_contacts(State& state, double h, double travel_share);
-  std::span<const ContactStage::Touch> touch_solids(State& state);
+  std::span<const ContactPass::Touch> touch_solids(State& state);
 
   MethodOptions options_;
   int substeps_;
-  std::optional<StrainLimitStage> strain_limit_;
+  std::optional<StrainLimitPass> strain_limit_;
   FirstContact first_contact_;
   State last_finite_;
   BendFriction::Kept last_friction_;  // state of friction inside the fabric, there

@@ -1,7 +1,6 @@
 #include "core/dynamics/stepper_table.h"
 
 #include <array>
-#include <string>
 
 #include "core/base/check.h"
 #include "core/dynamics/explicit/stepper_explicit.h"

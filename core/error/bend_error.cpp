@@ -71,7 +71,7 @@ std::vector<int> box_regions(const Positions& points, int& n_regions) {
   return regions;
 }
 
-std::vector<Eigen::Index> ascending(const Eigen::Ref<const Eigen::VectorXd>& values) {
+std::vector<Eigen::Index> ascending(const VectorView& values) {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
@@ -122,7 +122,7 @@ BendMeasure::BendMeasure(const TriangleMesh& mesh, double radius)
   }
 }
 
-Eigen::VectorXd BendMeasure::curvatures(const Eigen::Ref<const Positions>& positions) const {
+Eigen::VectorXd BendMeasure::curvatures(const PositionsView& positions) const {
   CurvatureVectors vectors = CurvatureVectors::Zero(9, areas_.size());
   for (std::size_t t = 0; t < stencils_.size(); ++t) {
     Eigen::Map<Mat3> columns(vectors.col(static_cast<Eigen::Index>(t)).data());
@@ -133,7 +133,7 @@ Eigen::VectorXd BendMeasure::curvatures(const Eigen::Ref<const Positions>& posit
   Eigen::VectorXd magnitudes(areas_.size());
   std::size_t n = 0;
   for (std::size_t t = 0; t < ends_.size(); ++t) {
-    Eigen::Matrix<double, 9, 1> mean = Eigen::Matrix<double, 9, 1>::Zero();
+    Vec9 mean = Vec9::Zero();
     for (; n < ends_[t]; ++n) mean += neighbours_[n].weight * vectors.col(neighbours_[n].triangle);
     magnitudes[static_cast<Eigen::Index>(t)] =
         std::sqrt(mean.head<6>().squaredNorm() + 2 * mean.tail<3>().squaredNorm());
@@ -141,8 +141,7 @@ Eigen::VectorXd BendMeasure::curvatures(const Eigen::Ref<const Positions>& posit
   return magnitudes;
 }
 
-BendError BendMeasure::error(const Eigen::Ref<const Positions>& positions,
-                             const Eigen::Ref<const Positions>& reference) const {
+BendError BendMeasure::error(const PositionsView& positions, const PositionsView& reference) const {
   PLEAT_CHECK(positions.allFinite() && reference.allFinite(), "a surface is at finite places");
   const Eigen::VectorXd own = curvatures(positions);
   const Eigen::VectorXd theirs = curvatures(reference);
@@ -154,9 +153,8 @@ BendError BendMeasure::error(const Eigen::Ref<const Positions>& positions,
 
 // Area between the cumulative distributions, which the distance is in one dimension. Both are
 // stepped through in ascending order; `ahead` is the weight by which a is ahead of b below `value`.
-double wasserstein_distance(const Eigen::Ref<const Eigen::VectorXd>& values_a,
-                            const Eigen::Ref<const Eigen::VectorXd>& values_b,
-                            const Eigen::Ref<const Eigen::VectorXd>& weights) {
+double wasserstein_distance(const VectorView& values_a, const VectorView& values_b,
+                            const VectorView& weights) {
   PLEAT_CHECK(values_a.size() == weights.size() && values_b.size() == weights.size(),
               "each value has a weight");
   PLEAT_CHECK(weights.size() > 0 && weights.minCoeff() >= 0 && weights.sum() > 0,
@@ -177,7 +175,7 @@ double wasserstein_distance(const Eigen::Ref<const Eigen::VectorXd>& values_a,
   return distance / weights.sum();
 }
 
-Positions subdivided_positions(const Eigen::Ref<const Positions>& positions,
+Positions subdivided_positions(const PositionsView& positions,
                                std::span<const std::array<VertexId, 2>> middles) {
   const auto n_new = static_cast<Eigen::Index>(middles.size());
   Positions all(3, positions.cols() + n_new);

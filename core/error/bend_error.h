@@ -16,8 +16,7 @@ struct BendError {
   double regions = 0;       ///< mean difference between the mean curvatures of regions
 };
 
-/// Compares how states of one cloth are bent, with wrinkles where they may be: what counts is how
-/// much of the cloth is curved how strongly.
+/// Compares how states of one cloth are bent: how much of it is curved how strongly, wherever.
 ///
 /// Both states are given at the vertices of one mesh, the finer one (carried_positions,
 /// subdivided_positions), and smoothed over the edges of the coarsest one, since what lies between
@@ -33,11 +32,10 @@ class BendMeasure {
 
   /// positions  [m], of all vertices of the mesh
   /// Throws ContractError unless both are finite.
-  BendError error(const Eigen::Ref<const Positions>& positions,
-                  const Eigen::Ref<const Positions>& reference) const;
+  BendError error(const PositionsView& positions, const PositionsView& reference) const;
 
   /// Smoothed magnitude of curvature of each triangle [1/m].
-  Eigen::VectorXd curvatures(const Eigen::Ref<const Positions>& positions) const;
+  Eigen::VectorXd curvatures(const PositionsView& positions) const;
 
   const Eigen::VectorXd& areas() const { return areas_; }  ///< rest area of each triangle [m^2]
 
@@ -60,15 +58,11 @@ class BendMeasure {
 ///
 /// Throws ContractError unless the sizes agree and the weights are not negative, with a positive
 /// sum.
-double wasserstein_distance(const Eigen::Ref<const Eigen::VectorXd>& values_a,
-                            const Eigen::Ref<const Eigen::VectorXd>& values_b,
-                            const Eigen::Ref<const Eigen::VectorXd>& weights);
+double wasserstein_distance(const VectorView& values_a, const VectorView& values_b,
+                            const VectorView& weights);
 
-/// Positions of a mesh after `subdivided`: new vertices lie in the middle of the edges that they
-/// split.
-///
-/// middles  of each new vertex, as `subdivided` gives them
-Positions subdivided_positions(const Eigen::Ref<const Positions>& positions,
+/// Positions of a mesh after `subdivided`: new vertices lie in the middle of the edges split.
+Positions subdivided_positions(const PositionsView& positions,
                                std::span<const std::array<VertexId, 2>> middles);
 
 }  // namespace pleat

@@ -22,9 +22,8 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
-double position_error(const Eigen::Ref<const Positions>& positions,
-                      const Eigen::Ref<const Positions>& reference,
-                      const Eigen::Ref<const Eigen::VectorXd>& areas) {
+double position_error(const PositionsView& positions, const PositionsView& reference,
+                      const VectorView& areas) {
   const Eigen::Index n = std::min(positions.cols(), reference.cols());
   PLEAT_CHECK(areas.size() == n && n > 0, "one area for each point that both states have");
   double sum = 0;
@@ -33,9 +32,8 @@ double position_error(const Eigen::Ref<const Positions>& positions,
   return std::sqrt(sum / areas.sum());
 }
 
-double position_error_95(const Eigen::Ref<const Positions>& positions,
-                         const Eigen::Ref<const Positions>& reference,
-                         const Eigen::Ref<const Eigen::VectorXd>& areas) {
+double position_error_95(const PositionsView& positions, const PositionsView& reference,
+                         const VectorView& areas) {
   constexpr double kShare = 0.95;
   const Eigen::Index n = std::min(positions.cols(), reference.cols());
   PLEAT_CHECK(areas.size() == n && n > 0, "one area for each point that both states have");
@@ -53,8 +51,7 @@ double position_error_95(const Eigen::Ref<const Positions>& positions,
 }
 
 // With d_k = |x_k - x_{k+1}| falling by 2^p at each halving, x - x_3 = (x_3 - x_2) / (2^p - 1).
-MeshLimit observed_limit(const std::array<Positions, 3>& meshes,
-                         const Eigen::Ref<const Eigen::VectorXd>& areas) {
+MeshLimit observed_limit(const std::array<Positions, 3>& meshes, const VectorView& areas) {
   const Eigen::Index n = meshes[0].cols();
   PLEAT_CHECK(meshes[1].cols() >= n && meshes[2].cols() >= n, "finer meshes have more vertices");
   MeshLimit limit;

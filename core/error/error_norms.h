@@ -23,15 +23,13 @@ double median(std::vector<double> values);
 ///
 /// NaN where all are zero. Throws ContractError unless `areas` has the smaller of both column
 /// counts.
-double position_error(const Eigen::Ref<const Positions>& positions,
-                      const Eigen::Ref<const Positions>& reference,
-                      const Eigen::Ref<const Eigen::VectorXd>& areas);
+double position_error(const PositionsView& positions, const PositionsView& reference,
+                      const VectorView& areas);
 
 /// The distance [m] that material points of 95 % of the area are within, as of position_error. NaN
 /// where all areas are zero.
-double position_error_95(const Eigen::Ref<const Positions>& positions,
-                         const Eigen::Ref<const Positions>& reference,
-                         const Eigen::Ref<const Eigen::VectorXd>& areas);
+double position_error_95(const PositionsView& positions, const PositionsView& reference,
+                         const VectorView& areas);
 
 /// The limit of positions on three meshes, each with edges half as long as the one before.
 struct MeshLimit {
@@ -41,10 +39,7 @@ struct MeshLimit {
 };
 
 /// Richardson's extrapolation at the observed rate log2(d1/d2) of the distances d1 and d2 between
-/// successive meshes. NaN where they do not fall.
-///
-/// areas  weights of the vertices of the coarsest mesh, as of position_error
-MeshLimit observed_limit(const std::array<Positions, 3>& meshes,
-                         const Eigen::Ref<const Eigen::VectorXd>& areas);
+/// successive meshes; areas weigh the coarsest one's vertices. NaN where distances do not fall.
+MeshLimit observed_limit(const std::array<Positions, 3>& meshes, const VectorView& areas);
 
 }  // namespace pleat

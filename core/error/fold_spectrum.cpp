@@ -86,7 +86,7 @@ Positions at_equal_steps(const std::vector<Vec3>& line, int n_points) {
 // With the turn s of a point, c the mean of the ring and u cos s + v sin s its first harmonic, the
 // distance is r(s) = (x(s) - c) . d(s) with d(s) the direction of the harmonic. On a circle it is
 // the radius: waves of n >= 3 in it change positions by harmonics of n - 1 and n + 1 alone.
-FoldAmplitudes fold_amplitudes(const Eigen::Ref<const Positions>& ring) {
+FoldAmplitudes fold_amplitudes(const PositionsView& ring) {
   const Eigen::Index n = ring.cols();
   PLEAT_CHECK(n > 2 * kMostFolds, "a ring has two points for each fold");
   const Vec3 centre = ring.rowwise().mean();
@@ -135,15 +135,11 @@ FoldSpectrum::FoldSpectrum(const TriangleMesh& mesh, const std::vector<Positions
   for (const Positions& ring : rings) maps_.emplace_back(mesh, ring);
 }
 
-void FoldSpectrum::add(const Eigen::Ref<const Positions>& positions) {
+void FoldSpectrum::add(const PositionsView& positions) {
   ++n_added_;
   for (std::size_t r = 0; r < maps_.size(); ++r)
     squares_.col(static_cast<Eigen::Index>(r)) +=
         fold_amplitudes(maps_[r].of(positions)).cwiseAbs2();
-}
-
-Eigen::MatrixXd FoldSpectrum::amplitudes() const {
-  return (squares_ / std::max(1, n_added_)).cwiseSqrt();
 }
 
 double fold_distance(const Eigen::Ref<const Eigen::MatrixXd>& amplitudes_a,

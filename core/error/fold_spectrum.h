@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/error/material_map.h"
@@ -21,7 +22,7 @@ using FoldAmplitudes = Eigen::Matrix<double, kMostFolds - kFewestFolds + 1, 1>;
 ///
 /// ring  closed, points at equal steps along the cloth at rest [m], more than 2 kMostFolds;
 ///       ContractError for fewer
-FoldAmplitudes fold_amplitudes(const Eigen::Ref<const Positions>& ring);
+FoldAmplitudes fold_amplitudes(const PositionsView& ring);
 
 /// Rings around cloth at rest: where a horizontal plane (y up) cuts it in closed lines, each of
 /// `n_points` at equal steps along it [m]. Trousers have one for each leg.
@@ -38,10 +39,10 @@ class FoldSpectrum {
   /// rings  of the same cloth at rest, on whichever mesh
   FoldSpectrum(const TriangleMesh& mesh, const std::vector<Positions>& rings);
 
-  void add(const Eigen::Ref<const Positions>& positions);
+  void add(const PositionsView& positions);
 
   /// Root mean square over what was added, a column for each ring [m].
-  Eigen::MatrixXd amplitudes() const;
+  Eigen::MatrixXd amplitudes() const { return (squares_ / std::max(1, n_added_)).cwiseSqrt(); }
 
  private:
   std::vector<MaterialMap> maps_;

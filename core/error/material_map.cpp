@@ -7,7 +7,7 @@
 
 namespace pleat {
 
-MaterialMap::MaterialMap(const TriangleMesh& mesh, const Eigen::Ref<const Positions>& points) {
+MaterialMap::MaterialMap(const TriangleMesh& mesh, const PositionsView& points) {
   const std::vector<Corners> corners = triangle_corners(mesh.triangles, mesh.rest_positions);
   TriangleTree tree(corners);
   places_.reserve(static_cast<std::size_t>(points.cols()));
@@ -19,7 +19,7 @@ MaterialMap::MaterialMap(const TriangleMesh& mesh, const Eigen::Ref<const Positi
   }
 }
 
-Positions MaterialMap::of(const Eigen::Ref<const Positions>& positions) const {
+Positions MaterialMap::of(const PositionsView& positions) const {
   Positions result(3, static_cast<Eigen::Index>(places_.size()));
   Eigen::Index column = 0;
   for (const Place& place : places_) {
@@ -31,7 +31,7 @@ Positions MaterialMap::of(const Eigen::Ref<const Positions>& positions) const {
   return result;
 }
 
-Positions MaterialMap::normals_of(const Eigen::Ref<const Positions>& positions) const {
+Positions MaterialMap::normals_of(const PositionsView& positions) const {
   Positions normals(3, static_cast<Eigen::Index>(places_.size()));
   Eigen::Index column = 0;
   for (const Place& place : places_) {

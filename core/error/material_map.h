@@ -12,13 +12,13 @@ class MaterialMap {
  public:
   /// mesh    at rest, with a triangle
   /// points  of the cloth at rest [m]
-  MaterialMap(const TriangleMesh& mesh, const Eigen::Ref<const Positions>& points);
+  MaterialMap(const TriangleMesh& mesh, const PositionsView& points);
 
   /// The points' places when the mesh is at `positions` [m].
-  Positions of(const Eigen::Ref<const Positions>& positions) const;
+  Positions of(const PositionsView& positions) const;
 
   /// Normals of the triangles that the points are on, not of unit length [m^2].
-  Positions normals_of(const Eigen::Ref<const Positions>& positions) const;
+  Positions normals_of(const PositionsView& positions) const;
 
   double farthest() const { return farthest_; }  ///< largest distance from the mesh at rest [m]
 

@@ -40,11 +40,11 @@ Positions middles(const std::vector<Triangle>& triangles, const Positions& x) {
 }
 
 /// Not of unit length [m^2].
-Vec3 normal(const Triangle& t, const Eigen::Ref<const Positions>& x) {
+Vec3 normal(const Triangle& t, const PositionsView& x) {
   return Vec3(x.col(t[1]) - x.col(t[0])).cross(Vec3(x.col(t[2]) - x.col(t[0])));
 }
 
-Positions normals(const std::vector<Triangle>& triangles, const Eigen::Ref<const Positions>& x) {
+Positions normals(const std::vector<Triangle>& triangles, const PositionsView& x) {
   Positions all(3, static_cast<Eigen::Index>(triangles.size()));
   Eigen::Index column = 0;
   for (const Triangle& t : triangles) all.col(column++) = normal(t, x);
@@ -70,7 +70,7 @@ MeshSampling::MeshSampling(const QuadMesh& mesh, const QuadMesh& fine)
   to_facets_.emplace(cut_.triangle_mesh(), middles(triangles_, fine.rest_positions()));
 }
 
-Positions MeshSampling::sampled(const Eigen::Ref<const Positions>& fine_columns) const {
+Positions MeshSampling::sampled(const PositionsView& fine_columns) const {
   PLEAT_CHECK(fine_columns.cols() == fine_.n_vertices(), "one column per vertex");
   if (sample_) return sample_->of(fine_columns);
   Positions columns = to_mesh_->of(fine_columns);
@@ -78,13 +78,13 @@ Positions MeshSampling::sampled(const Eigen::Ref<const Positions>& fine_columns)
   return columns;
 }
 
-Positions MeshSampling::shown(const Eigen::Ref<const Positions>& columns) const {
+Positions MeshSampling::shown(const PositionsView& columns) const {
   if (sample_) return on_finer_mesh(columns, mesh_, fine_);
   return to_fine_->of(on_finer_mesh(columns, mesh_, cut_));
 }
 
-SamplingError MeshSampling::error(const Eigen::Ref<const Positions>& fine_positions,
-                                  const Eigen::Ref<const Positions>& columns) const {
+SamplingError MeshSampling::error(const PositionsView& fine_positions,
+                                  const PositionsView& columns) const {
   const Positions shown_positions = shown(columns);
   const Positions facets = to_facets_ ? to_facets_->normals_of(on_finer_mesh(columns, mesh_, cut_))
                                       : normals(triangles_, shown_positions);

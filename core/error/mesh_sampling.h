@@ -27,19 +27,18 @@ class MeshSampling {
   MeshSampling(const QuadMesh& mesh, const QuadMesh& fine);
 
   /// Places [m], or velocities, of the mesh's vertices, from the fine ones.
-  Positions sampled(const Eigen::Ref<const Positions>& fine_columns) const;
+  Positions sampled(const PositionsView& fine_columns) const;
 
   /// Places of the fine mesh's vertices when the mesh's are at these places [m].
-  Positions shown(const Eigen::Ref<const Positions>& columns) const;
+  Positions shown(const PositionsView& columns) const;
 
   /// Error between a fine shape and the mesh at the same points when its vertices are at `columns`
   /// [m]. By rest area; a normal is the fine triangle's, against the mesh's own facet there: one
   /// through points on several facets would be smoother than what is seen.
-  SamplingError error(const Eigen::Ref<const Positions>& fine_positions,
-                      const Eigen::Ref<const Positions>& columns) const;
+  SamplingError error(const PositionsView& fine_positions, const PositionsView& columns) const;
 
   /// Error between a fine shape and its own sample.
-  SamplingError error(const Eigen::Ref<const Positions>& fine_positions) const {
+  SamplingError error(const PositionsView& fine_positions) const {
     return error(fine_positions, sampled(fine_positions));
   }
 

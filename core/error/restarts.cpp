@@ -1,6 +1,5 @@
 #include "core/error/restarts.h"
 
-#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -8,6 +7,7 @@
 #include "core/error/error_norms.h"
 #include "core/error/mesh_sampling.h"
 #include "core/run/simulation.h"
+#include "core/scene/format/scene_file.h"
 #include "core/scene/tearing.h"
 
 namespace pleat {
@@ -37,11 +37,6 @@ struct Restarted {
   MeshSampling sampling;
   Eigen::VectorXd areas;
 };
-
-/// Steps that are a time; its own is at least one.
-std::int64_t whole_steps(double time, double step) {
-  return std::max<std::int64_t>(1, std::llround(time / step));
-}
 
 bool run(Simulation& simulation, std::int64_t n_steps) {
   for (std::int64_t k = 0; k < n_steps; ++k)

@@ -95,10 +95,6 @@ Positions RunComparison::on_finer_mesh(const Positions& positions, bool is_finer
   return subdivided_positions(positions, middles_);
 }
 
-Positions RunComparison::at_common_vertices(const Positions& own) const {
-  return map_ ? map_->of(own) : own;
-}
-
 RunErrors RunComparison::errors(std::span<const Sample> run,
                                 std::span<const Sample> reference) const {
   check_times(run, reference);

@@ -49,7 +49,7 @@ class RunComparison {
   double bend_over_time(std::span<const Sample> run, std::span<const Sample> reference) const;
 
  private:
-  Positions at_common_vertices(const Positions& own) const;
+  Positions at_common_vertices(const Positions& own) const { return map_ ? map_->of(own) : own; }
   Positions on_finer_mesh(const Positions& positions, bool is_finer) const;
 
   RestCloth own_;

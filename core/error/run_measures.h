@@ -40,10 +40,8 @@ RunMeasures run_measures(std::span<const RunRecord> runs, std::span<const Positi
 /// frames at a time: the median over the turns of the ratio of the median frames, in processor
 /// time.
 ///
-/// Two turns that are next to each other meet the machine at the same speed. Time in which another
-/// program had the processor counts for neither, and a frame or turn that was slowed down otherwise
-/// is passed over on both sides alike, as the medians are of pairs. NaN without a turn that both
-/// have done.
+/// Turns next to each other meet the machine at the same speed, and the medians, of pairs, pass
+/// over what was slowed down. NaN without a turn that both have done.
 double time_ratio(std::span<const RunRecord> runs, std::span<const RunRecord> others,
                   std::size_t turn_frames);
 

@@ -47,8 +47,7 @@ bool passes(const Vec3& from, const Vec3& to, const Corners& c, double slack) {
 
 }  // namespace
 
-SelfCrossings::SelfCrossings(const std::vector<Triangle>& triangles,
-                             const Eigen::Ref<const Positions>& positions,
+SelfCrossings::SelfCrossings(const std::vector<Triangle>& triangles, const PositionsView& positions,
                              std::span<const HangingVertex> hanging)
     : positions_(positions), parents_(static_cast<std::size_t>(positions.cols())) {
   std::unordered_set<std::uint64_t> known;  // only looked up, never walked
@@ -67,7 +66,7 @@ SelfCrossings::SelfCrossings(const std::vector<Triangle>& triangles,
   }
 }
 
-std::int64_t SelfCrossings::count(const Eigen::Ref<const Positions>& positions) {
+std::int64_t SelfCrossings::count(const PositionsView& positions) {
   PLEAT_CHECK(positions.cols() == positions_.cols() && positions.allFinite(),
               "a finite place for every vertex");
   if (!boxes_) return 0;
@@ -131,8 +130,7 @@ std::int64_t SelfCrossings::between(std::size_t node_a, std::size_t node_b) cons
   return n;
 }
 
-std::int64_t self_crossings(const std::vector<Triangle>& triangles,
-                            const Eigen::Ref<const Positions>& positions,
+std::int64_t self_crossings(const std::vector<Triangle>& triangles, const PositionsView& positions,
                             std::span<const HangingVertex> hanging) {
   return SelfCrossings(triangles, positions, hanging).count(positions);
 }

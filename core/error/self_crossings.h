@@ -19,12 +19,11 @@ class SelfCrossings {
  public:
   /// positions  where the triangles lie near those they will be near to, such as at rest [m]
   /// hanging    of these triangles
-  SelfCrossings(const std::vector<Triangle>& triangles,
-                const Eigen::Ref<const Positions>& positions,
+  SelfCrossings(const std::vector<Triangle>& triangles, const PositionsView& positions,
                 std::span<const HangingVertex> hanging = {});
 
   /// positions  of the same vertices, finite [m]
-  std::int64_t count(const Eigen::Ref<const Positions>& positions);
+  std::int64_t count(const PositionsView& positions);
 
  private:
   struct Member {
@@ -48,8 +47,7 @@ class SelfCrossings {
 };
 
 /// Counts the crossings of one shape.
-std::int64_t self_crossings(const std::vector<Triangle>& triangles,
-                            const Eigen::Ref<const Positions>& positions,
+std::int64_t self_crossings(const std::vector<Triangle>& triangles, const PositionsView& positions,
                             std::span<const HangingVertex> hanging = {});
 
 }  // namespace pleat

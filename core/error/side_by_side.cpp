@@ -1,7 +1,6 @@
 #include "core/error/side_by_side.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/base/check.h"
 #include "core/refinement/mesh_match.h"
@@ -21,8 +20,7 @@ std::unique_ptr<MovingCloth> moving_cloth(const Contestant& contestant) {
 }
 
 Positions unpinned_columns(const ClothModel& model, const Positions& columns) {
-  std::vector<bool> is_pinned(static_cast<std::size_t>(columns.cols()), false);
-  for (const Pin& pin : model.pins) is_pinned[pin.vertex] = true;
+  const std::vector<bool> is_pinned = model.pinned();
   Positions unpinned(3, columns.cols() - static_cast<Eigen::Index>(model.pins.size()));
   Eigen::Index next = 0;
   for (Eigen::Index v = 0; v < columns.cols(); ++v)
@@ -58,8 +56,6 @@ SamplingError mean_sampling(const MeshSampling& sampling, std::span<const Sample
 }
 
 }  // namespace
-
-int FrameOptions::n_frames() const { return static_cast<int>(std::lround(duration / frame_time)); }
 
 void FrameOptions::validate() const {
   if (!(frame_time > 0) || !(duration >= 2 * frame_time) || !is_whole(duration / frame_time))
@@ -144,7 +140,7 @@ void SideBySide::Run::observe_frame(bool is_compared, bool is_monitored,
     result.unpinned_inside.add(contact->penetration(unpinned, cloth->time()));
   }
   if (monitor && is_monitored) {
-    result.fit->last = monitor->look(state.positions);
+    result.fit->last = monitor->add_frame(state.positions);
     result.fit->outside += result.fit->last.share;
   }
   if (is_compared) keep_sample(reference_mesh);

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/error/fold_spectrum.h"
@@ -28,7 +28,7 @@ struct FrameOptions {
   double settled = 2;            ///< time at which the monitors start to look [s]
   int error_every = 5;           ///< frames from one that is compared to the next
 
-  int n_frames() const;
+  int n_frames() const { return static_cast<int>(std::lround(duration / frame_time)); }
   /// Throws InputError naming the value that is out of range or no whole number of frames.
   void validate() const;
 };
@@ -53,8 +53,8 @@ struct ContestantResult {
   int n_vertices = 0;  ///< number of vertices; the mean over all frames of an adaptive mesh
   SolveReport report;  ///< ok, or what ended the run; residual the largest, iterations the sum
   int n_frames = 0;    ///< whole ones
-  std::vector<double> frame_ms;                ///< wall time of each frame, refinement included
-  std::array<double, kStageCount> parts_ms{};  ///< mean time of the parts of a frame
+  std::vector<double> frame_ms;               ///< wall time of each frame, refinement included
+  std::array<double, kPartCount> parts_ms{};  ///< mean time of the parts of a frame
   std::vector<double> refinement_ms;  ///< time of each frame's refinement; empty unless adaptive
   RunErrors errors;                   ///< means over times of the distance to the first contestant
   double bend_over_time = RunErrors::kUnknown;  ///< see RunComparison [1/m]

@@ -72,10 +72,9 @@ SurfaceError summary(std::vector<WeightedDistance> distances) {
 
 }  // namespace
 
-SurfaceError surface_error(std::span<const Triangle> triangles_a,
-                           const Eigen::Ref<const Positions>& positions_a,
+SurfaceError surface_error(std::span<const Triangle> triangles_a, const PositionsView& positions_a,
                            std::span<const Triangle> triangles_b,
-                           const Eigen::Ref<const Positions>& positions_b) {
+                           const PositionsView& positions_b) {
   PLEAT_CHECK(!triangles_a.empty() && !triangles_b.empty(), "a surface has a triangle");
   PLEAT_CHECK(positions_a.allFinite() && positions_b.allFinite(), "a surface is at finite places");
   const std::vector<Corners> a = triangle_corners(triangles_a, positions_a);

@@ -9,12 +9,11 @@ namespace pleat {
 /// One stencil per triangle, exact for quadratics like those of curvature_stencils, whose sum of
 /// area times weight vanishes at every vertex away from the border.
 ///
-/// Cloth bent to one curvature needs no forces inside. The fits alone do not say so where vertices
-/// differ from one another: such cloth gets rid of up to a third of its bending energy by small
-/// ripples, on any fineness of mesh. Here a triangle's mean of the second derivatives is the sum
-/// over its edges of length times outward normal times gradient at the edge's middle, over its area
-/// (divergence theorem). The gradient is one and the same for both triangles beside an edge: along
-/// it from its ends; across it from the two corners beyond, corrected by the fitted second
+/// Cloth bent to one curvature needs no forces inside; by the fits alone it would lose up to a
+/// third of its bending energy in ripples. Here a triangle's mean of the second derivatives is the
+/// sum over its edges of length times outward normal times gradient at the edge's middle, over its
+/// area (divergence theorem). The gradient is one and the same for both triangles beside an edge:
+/// along it from its ends; across it from the two corners beyond, corrected by the fitted second
 /// derivatives where these corners do not mirror one another. On parallelograms nothing is left to
 /// correct, and both kinds of stencil agree.
 ///

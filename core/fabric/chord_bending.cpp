@@ -28,16 +28,15 @@ ChordBend chord_bend(VertexId a, VertexId b, double arm, double rigidity) {
   return {a, b, arm, k};
 }
 
-double chord_energy(std::span<const ChordBend> bends,
-                    const Eigen::Ref<const Positions>& positions) {
+double chord_energy(std::span<const ChordBend> bends, const PositionsView& positions) {
   double energy = 0;
   for (const ChordBend& bend : bends)
     energy += energy_at(bend, (positions.col(bend.a) - positions.col(bend.b)).norm()).value;
   return energy;
 }
 
-void add_chord_forces(std::span<const ChordBend> bends,
-                      const Eigen::Ref<const Positions>& positions, Eigen::Ref<Positions> forces) {
+void add_chord_forces(std::span<const ChordBend> bends, const PositionsView& positions,
+                      PositionsRef forces) {
   for (const ChordBend& bend : bends) {
     const Vec3 d = positions.col(bend.a) - positions.col(bend.b);
     const double chord = d.norm();
@@ -48,7 +47,7 @@ void add_chord_forces(std::span<const ChordBend> bends,
   }
 }
 
-Mat3 chord_stiffness(const ChordBend& bend, const Eigen::Ref<const Positions>& positions,
+Mat3 chord_stiffness(const ChordBend& bend, const PositionsView& positions,
                      ElementHessian hessian) {
   const Vec3 d = positions.col(bend.a) - positions.col(bend.b);
   const double chord = d.norm();

@@ -28,15 +28,14 @@ constexpr double kChordCurvature = 30;
 ChordBend chord_bend(VertexId a, VertexId b, double arm, double rigidity);
 
 /// Energy stored [J].
-double chord_energy(std::span<const ChordBend> bends, const Eigen::Ref<const Positions>& positions);
+double chord_energy(std::span<const ChordBend> bends, const PositionsView& positions);
 
 /// Adds the forces on vertices [N]; two vertices in one place have no direction to be pushed in.
-void add_chord_forces(std::span<const ChordBend> bends,
-                      const Eigen::Ref<const Positions>& positions, Eigen::Ref<Positions> forces);
+void add_chord_forces(std::span<const ChordBend> bends, const PositionsView& positions,
+                      PositionsRef forces);
 
 /// -d(force on a)/d(x_a) [N/m]. Exact it is indefinite, as a compressed spring is, and grows beyond
 /// bounds as the chord vanishes; at no length it is zero.
-Mat3 chord_stiffness(const ChordBend& bend, const Eigen::Ref<const Positions>& positions,
-                     ElementHessian hessian);
+Mat3 chord_stiffness(const ChordBend& bend, const PositionsView& positions, ElementHessian hessian);
 
 }  // namespace pleat

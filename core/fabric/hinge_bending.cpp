@@ -9,7 +9,6 @@ namespace pleat {
 namespace {
 
 using Mat3x9 = Eigen::Matrix<double, 3, 9>;
-using Mat9 = Eigen::Matrix<double, 9, 9>;
 using Vec12 = Eigen::Matrix<double, 12, 1>;
 using Mat12 = Eigen::Matrix<double, 12, 12>;
 
@@ -109,7 +108,7 @@ struct Fold {
   }
 };
 
-Fold fold(const std::array<VertexId, 4>& vertices, const Eigen::Ref<const Positions>& positions) {
+Fold fold(const std::array<VertexId, 4>& vertices, const PositionsView& positions) {
   const Vec3 x0 = positions.col(vertices[0]);
   const Vec3 x1 = positions.col(vertices[1]);
   Fold at{{flap(x0, x1, positions.col(vertices[2])), flap(x0, x1, positions.col(vertices[3]))},
@@ -120,8 +119,7 @@ Fold fold(const std::array<VertexId, 4>& vertices, const Eigen::Ref<const Positi
 
 }  // namespace
 
-HingeTurn hinge_turn(const std::array<VertexId, 4>& vertices,
-                     const Eigen::Ref<const Positions>& positions) {
+HingeTurn hinge_turn(const std::array<VertexId, 4>& vertices, const PositionsView& positions) {
   HingeTurn turn;
   const Fold at = fold(vertices, positions);
   if (!at.has_area) return turn;
@@ -144,7 +142,7 @@ std::vector<Hinge> hinges(const TriangleMesh& mesh, double rigidity) {
   return result;
 }
 
-double hinge_energy(std::span<const Hinge> hinges, const Eigen::Ref<const Positions>& positions) {
+double hinge_energy(std::span<const Hinge> hinges, const PositionsView& positions) {
   double energy = 0;
   for (const Hinge& hinge : hinges) {
     const Fold at = fold(hinge.vertices, positions);
@@ -153,8 +151,8 @@ double hinge_energy(std::span<const Hinge> hinges, const Eigen::Ref<const Positi
   return energy;
 }
 
-void add_hinge_forces(std::span<const Hinge> hinges, const Eigen::Ref<const Positions>& positions,
-                      Eigen::Ref<Positions> forces) {
+void add_hinge_forces(std::span<const Hinge> hinges, const PositionsView& positions,
+                      PositionsRef forces) {
   for (const Hinge& hinge : hinges) {
     const Fold at = fold(hinge.vertices, positions);
     if (!at.has_area) continue;
@@ -163,8 +161,7 @@ void add_hinge_forces(std::span<const Hinge> hinges, const Eigen::Ref<const Posi
   }
 }
 
-Mat12 hinge_stiffness(const Hinge& hinge, const Eigen::Ref<const Positions>& positions,
-                      ElementHessian hessian) {
+Mat12 hinge_stiffness(const Hinge& hinge, const PositionsView& positions, ElementHessian hessian) {
   const Fold at = fold(hinge.vertices, positions);
   if (!at.has_area) return Mat12::Zero();
   const Vec12 gradient = at.gradient();

@@ -23,8 +23,7 @@ struct HingeTurn {
 
 /// vertices  as in Hinge
 /// Zero with a flap of no area, which turns nowhere.
-HingeTurn hinge_turn(const std::array<VertexId, 4>& vertices,
-                     const Eigen::Ref<const Positions>& positions);
+HingeTurn hinge_turn(const std::array<VertexId, 4>& vertices, const PositionsView& positions);
 
 /// One hinge per inner edge, at rest when flat, with c = B l^2 / (A1 + A2): edge length l, areas A1
 /// and A2 beside it.
@@ -33,23 +32,21 @@ HingeTurn hinge_turn(const std::array<VertexId, 4>& vertices,
 ///
 /// Right for equilateral triangles; others bend unlike by direction (docs/methods/fitted_bending.md
 /// has the numbers). A hinge with a flap of no area bends nowhere: no energy, no force, no
-/// stiffness. Folded by exactly a half turn it unfolds to either side, as rounding has it, with the
-/// full moment. Throws ContractError for a negative rigidity or triangles without area at rest.
+/// stiffness. Throws ContractError for a negative rigidity or triangles without area at rest.
 /// Source: Grinspun, Hirani, Desbrun & Schröder, Discrete shells, SCA 2003; Tamstorf & Grinspun,
 /// Discrete bending forces and their Jacobians, Graphical Models 75(6), 2013.
 std::vector<Hinge> hinges(const TriangleMesh& mesh, double rigidity);
 
 /// Energy stored [J].
-double hinge_energy(std::span<const Hinge> hinges, const Eigen::Ref<const Positions>& positions);
+double hinge_energy(std::span<const Hinge> hinges, const PositionsView& positions);
 
 /// Adds the forces on vertices [N].
-void add_hinge_forces(std::span<const Hinge> hinges, const Eigen::Ref<const Positions>& positions,
-                      Eigen::Ref<Positions> forces);
+void add_hinge_forces(std::span<const Hinge> hinges, const PositionsView& positions,
+                      PositionsRef forces);
 
 /// -d(forces)/d(positions) of one hinge [N/m], in 3 x 3 blocks by vertex. Projected: without its
 /// negative eigenvalues.
-Eigen::Matrix<double, 12, 12> hinge_stiffness(const Hinge& hinge,
-                                              const Eigen::Ref<const Positions>& positions,
+Eigen::Matrix<double, 12, 12> hinge_stiffness(const Hinge& hinge, const PositionsView& positions,
                                               ElementHessian hessian);
 
 }  // namespace pleat

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "core/base/check.h"
+#include "core/base/formatted.h"
 #include "core/fabric/taut_springs.h"
 
 namespace pleat {
@@ -32,8 +32,7 @@ struct Moduli {
   double warp, weft, shear;
 };
 
-Deformation deformation(const MembraneElement& element,
-                        const Eigen::Ref<const Positions>& positions) {
+Deformation deformation(const MembraneElement& element, const PositionsView& positions) {
   const auto& g = element.gradients;
   const Vec3 x0 = positions.col(element.vertices[0]);
   const Vec3 d1 = positions.col(element.vertices[1]) - x0;  // differences: gradients sum to zero
@@ -95,14 +94,14 @@ Tensor positive_part(const Tensor& S) {
 ///         + (C22 b d + G a c) x_v x_v^T + G (a d + b c) (x_u x_v^T + x_v x_u^T) ].
 ///
 /// C12 and the shear modulus are both G; that makes each block symmetric.
-Eigen::Matrix<double, 9, 9> second_derivative(const MembraneElement& element, const Deformation& at,
-                                              const Moduli& C, const Tensor& S) {
+Mat9 second_derivative(const MembraneElement& element, const Deformation& at, const Moduli& C,
+                       const Tensor& S) {
   const Mat3 uu = at.x_u * at.x_u.transpose();
   const Mat3 vv = at.x_v * at.x_v.transpose();
   const Mat3 half = at.x_u * at.x_v.transpose();
   const Mat3 uv = half + half.transpose();
   const auto& g = element.gradients;
-  Eigen::Matrix<double, 9, 9> K;
+  Mat9 K;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j <= i; ++j) {
       const double ac = element.area * g(i, 0) * g(j, 0);
@@ -141,17 +140,15 @@ std::vector<MembraneElement> membrane_elements(const TriangleMesh& mesh) {
 
 MembraneLaw membrane_law(const FabricConstants& fabric) {
   if (fabric.shear * fabric.shear > fabric.stretch_warp * fabric.stretch_weft) {
-    char sentence[240];
-    std::snprintf(sentence, sizeof sentence,
-                  "%s: expected a shear stiffness of at most sqrt(%g * %g) N/m, that of stretch, "
-                  "got %g N/m",
-                  fabric.name.c_str(), fabric.stretch_warp, fabric.stretch_weft, fabric.shear);
-    throw InputError("/fabric", sentence);
+    throw InputError("/fabric", formatted("%s: expected a shear stiffness of at most sqrt(%g * %g) "
+                                          "N/m, that of stretch, got %g N/m",
+                                          fabric.name.c_str(), fabric.stretch_warp,
+                                          fabric.stretch_weft, fabric.shear));
   }
   return {fabric.stretch_warp, fabric.stretch_weft, fabric.shear, 0};
 }
 
-double membrane_energy(const Membrane& membrane, const Eigen::Ref<const Positions>& positions) {
+double membrane_energy(const Membrane& membrane, const PositionsView& positions) {
   const double knee = green_stiffening_strain(membrane.law);
   double energy = 0;
   for (const MembraneElement& element : membrane.elements)
@@ -159,8 +156,8 @@ double membrane_energy(const Membrane& membrane, const Eigen::Ref<const Position
   return energy;
 }
 
-void add_membrane_forces(const Membrane& membrane, const Eigen::Ref<const Positions>& positions,
-                         Eigen::Ref<Positions> forces) {
+void add_membrane_forces(const Membrane& membrane, const PositionsView& positions,
+                         PositionsRef forces) {
   const double knee = green_stiffening_strain(membrane.law);
   for (const MembraneElement& element : membrane.elements) {
     const Deformation d = deformation(element, positions);
@@ -176,10 +173,8 @@ void add_membrane_forces(const Membrane& membrane, const Eigen::Ref<const Positi
   }
 }
 
-Eigen::Matrix<double, 9, 9> membrane_stiffness(const MembraneLaw& law,
-                                               const MembraneElement& element,
-                                               const Eigen::Ref<const Positions>& positions,
-                                               ElementHessian hessian) {
+Mat9 membrane_stiffness(const MembraneLaw& law, const MembraneElement& element,
+                        const PositionsView& positions, ElementHessian hessian) {
   const double knee = green_stiffening_strain(law);
   const Deformation d = deformation(element, positions);
   const Tensor S = stress(law, knee, d);
@@ -187,9 +182,8 @@ Eigen::Matrix<double, 9, 9> membrane_stiffness(const MembraneLaw& law,
                            hessian == ElementHessian::projected ? positive_part(S) : S);
 }
 
-Eigen::Matrix<double, 9, 9> membrane_viscosity(const MembraneLaw& law,
-                                               const MembraneElement& element,
-                                               const Eigen::Ref<const Positions>& positions) {
+Mat9 membrane_viscosity(const MembraneLaw& law, const MembraneElement& element,
+                        const PositionsView& positions) {
   return second_derivative(element, deformation(element, positions),
                            {law.stretch_warp, law.stretch_weft, law.shear}, {0, 0, 0});
 }

@@ -47,24 +47,21 @@ std::vector<MembraneElement> membrane_elements(const TriangleMesh& mesh);
 MembraneLaw membrane_law(const FabricConstants& fabric);
 
 /// Energy stored [J].
-double membrane_energy(const Membrane& membrane, const Eigen::Ref<const Positions>& positions);
+double membrane_energy(const Membrane& membrane, const PositionsView& positions);
 
 /// Adds the forces on vertices [N].
-void add_membrane_forces(const Membrane& membrane, const Eigen::Ref<const Positions>& positions,
-                         Eigen::Ref<Positions> forces);
+void add_membrane_forces(const Membrane& membrane, const PositionsView& positions,
+                         PositionsRef forces);
 
 /// -d(forces)/d(positions) of one element [N/m], in 3 x 3 blocks by vertex. Projected: without the
 /// part of compressive stress.
-Eigen::Matrix<double, 9, 9> membrane_stiffness(const MembraneLaw& law,
-                                               const MembraneElement& element,
-                                               const Eigen::Ref<const Positions>& positions,
-                                               ElementHessian hessian);
+Mat9 membrane_stiffness(const MembraneLaw& law, const MembraneElement& element,
+                        const PositionsView& positions, ElementHessian hessian);
 
 /// The part of the stiffness that resists a change of strain, without stiffening [N/m]. Times
 /// a relaxation time [s] it is the damping of a Kelvin-Voigt material [N s/m]: positive
 /// semidefinite, and rotation is not braked.
-Eigen::Matrix<double, 9, 9> membrane_viscosity(const MembraneLaw& law,
-                                               const MembraneElement& element,
-                                               const Eigen::Ref<const Positions>& positions);
+Mat9 membrane_viscosity(const MembraneLaw& law, const MembraneElement& element,
+                        const PositionsView& positions);
 
 }  // namespace pleat

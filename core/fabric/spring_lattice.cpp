@@ -1,9 +1,9 @@
 #include "core/fabric/spring_lattice.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include "core/base/check.h"
+#include "core/base/formatted.h"
 #include "core/mesh/mesh_lines.h"
 
 namespace pleat {
@@ -12,13 +12,12 @@ namespace {
 void check_edge_stiffness(double stiffness, double aspect, const FabricConstants& fabric,
                           const char* thread) {
   if (stiffness >= 0) return;
-  char sentence[240];
-  std::snprintf(sentence, sizeof sentence,
-                "%s: expected cells whose shear stiffness %g N/m the %s edges can carry, got "
+  throw InputError(
+      "/fabric",
+      formatted("%s: expected cells whose shear stiffness %g N/m the %s edges can carry, got "
                 "cells %.3g times as "
                 "long along %s as across, which would need springs of negative stiffness",
-                fabric.name.c_str(), fabric.shear, thread, aspect, thread);
-  throw InputError("/fabric", sentence);
+                fabric.name.c_str(), fabric.shear, thread, aspect, thread));
 }
 
 /// kappa = 2/(L1+L2) [(x2 - x1)/L2 - (x1 - x0)/L1], E = 1/2 B w (L1+L2)/2 |kappa|^2.

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <vector>
 
 #include "core/base/check.h"
+#include "core/base/formatted.h"
 
 namespace pleat {
 namespace {
@@ -198,9 +198,7 @@ std::string printable(std::string_view text) {
       result += text[i];
       continue;
     }
-    char escape[8];
-    std::snprintf(escape, sizeof escape, "\\u%04x", static_cast<unsigned>(is_c1 ? next : byte));
-    result += escape;
+    result += formatted("\\u%04x", static_cast<unsigned>(is_c1 ? next : byte));
     if (is_c1) ++i;
   }
   return result;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/base/check.h"
-#include "core/files/json_reader.h"
 
 namespace pleat {
 namespace {

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <map>
-#include <string>
 
 #include "core/base/check.h"
 #include "core/files/json_reader.h"

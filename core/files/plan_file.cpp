@@ -1,10 +1,9 @@
 #include "core/files/plan_file.h"
 
-#include <cstdio>
 #include <limits>
 
 #include "core/base/check.h"
-#include "core/files/json_reader.h"
+#include "core/base/formatted.h"
 
 namespace pleat {
 namespace {
@@ -16,9 +15,7 @@ constexpr const char* kLargestLoss = "largest_loss_m";
 constexpr int kMaxCount = std::numeric_limits<int>::max();
 
 std::string fingerprint_text(std::uint64_t fingerprint) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(fingerprint));
-  return text;
+  return formatted("%016llx", static_cast<unsigned long long>(fingerprint));
 }
 
 std::uint64_t read_fingerprint(const JsonReader& reader) {

@@ -20,7 +20,7 @@ double largest_distance(const Positions& a, const Positions& b) {
 /// A measure that is the largest of what it saw.
 class LargestMeasure : public CaseMeasure {
  public:
-  void look(const Simulation& simulation, const SolveReport&) override {
+  void update(const Simulation& simulation, const SolveReport&) override {
     const double seen = measure(simulation);
     if (!(seen <= largest_)) largest_ = seen;  // NaN too, and it stays
   }
@@ -49,7 +49,7 @@ class LargestOf final : public LargestMeasure {
 class LastOf final : public CaseMeasure {
  public:
   explicit LastOf(double (*measure)(const Simulation&)) : measure_(measure) {}
-  void look(const Simulation& simulation, const SolveReport&) override {
+  void update(const Simulation& simulation, const SolveReport&) override {
     last_ = measure_(simulation);
   }
   double value() const override { return last_; }
@@ -65,8 +65,8 @@ class Warnings final : public CaseMeasure {
   using Selection = bool (*)(const RunWarning&);
 
   Warnings(const Simulation& start, Selection counts) : watch_(start), counts_(counts) {}
-  void look(const Simulation& simulation, const SolveReport& step) override {
-    if (simulation.n_steps() > 0) watch_.look(simulation, step);
+  void update(const Simulation& simulation, const SolveReport& step) override {
+    if (simulation.n_steps() > 0) watch_.check(simulation, step);
   }
   double value() const override {
     return static_cast<double>(
@@ -109,7 +109,7 @@ class Unrest final : public LargestMeasure {
 class EnergyGrowth final : public CaseMeasure {
  public:
   explicit EnergyGrowth(double start) : start_(start) {}
-  void look(const Simulation& simulation, const SolveReport&) override {
+  void update(const Simulation& simulation, const SolveReport&) override {
     const double energy = total_energy(simulation.model(), simulation.state());
     if (simulation.n_steps() == 0) first_ = least_ = energy;
     least_ = std::min(least_, energy);

@@ -1,21 +1,15 @@
 #include "core/hard_cases/case_report.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <vector>
 
+#include "core/base/formatted.h"
 #include "core/dynamics/stepper_table.h"
 
 namespace pleat {
 namespace {
 
 constexpr const char* kWithoutStepper = "no stepper";
-
-std::string digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 /// A cell may hold any text but these.
 std::string escaped(std::string text) {
@@ -56,7 +50,7 @@ std::string peculiarities_of(const HardCase& hard_case, const std::string& stepp
   for (const CaseException& exception : hard_case.exceptions)
     if (exception.stepper == stepper)
       text += (text.empty() ? "" : "; ") + stepper + ", " + exception.check + " " +
-              (exception.bound ? "<= " + digits(*exception.bound) : "not asked") + ": " +
+              (exception.bound ? "<= " + three_digits(*exception.bound) : "not asked") + ": " +
               exception.reason;
   return text;
 }
@@ -66,7 +60,7 @@ std::string cell(const HardCase& hard_case, const CaseOutcome& outcome, Notes& n
   if (!outcome.is_expected()) return "**" + text + "**" + notes.mark(outcome.sentence);
   if (outcome.status != CaseStatus::ok)
     return text + notes.mark(outcome.excuse + ": " + outcome.sentence);
-  if (outcome.is_cut()) text += ", " + digits(outcome.reached) + " s";
+  if (outcome.is_cut()) text += ", " + three_digits(outcome.reached) + " s";
   return text + notes.mark(peculiarities_of(hard_case, outcome.stepper));
 }
 
@@ -110,7 +104,7 @@ std::string outcome_table(std::span<const HardCase> cases, std::span<const CaseO
 template <class Checks>
 void add_asked(const Checks& checks, std::string& text) {
   for (const auto& check : checks)
-    text += (text.empty() ? "" : "; ") + check.what + " <= " + digits(check.bound);
+    text += (text.empty() ? "" : "; ") + check.what + " <= " + three_digits(check.bound);
 }
 
 /// Checks of a case; its outcome tells those of a case without a stepper.
@@ -124,7 +118,9 @@ std::string asked_of(const HardCase& hard_case, const CaseOutcome* outcome) {
 }
 
 std::string lengths_of(const HardCase& hard_case) {
-  return hard_case.still ? "" : digits(hard_case.brief) + ", " + digits(hard_case.full);
+  return hard_case.still
+             ? ""
+             : three_digits(hard_case.seconds.brief) + ", " + three_digits(hard_case.seconds.full);
 }
 
 std::string case_list(std::span<const HardCase> cases, std::span<const CaseOutcome> outcomes) {

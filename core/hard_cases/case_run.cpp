@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/base/check.h"
+#include "core/base/formatted.h"
 #include "core/files/whole_file.h"
 #include "core/scene/format/scene_file.h"
 
@@ -103,7 +103,7 @@ struct EventHandler {
 void begin_checks(const HardCase& hard_case, double duration, VariantRun& run) {
   for (const CaseCheck& check : hard_case.checks) {
     run.measures.push_back(check.measure(*run.simulation, duration));
-    run.measures.back()->look(*run.simulation, {});
+    run.measures.back()->update(*run.simulation, {});
   }
 }
 
@@ -119,7 +119,7 @@ SolveReport run_variant(const HardCase& hard_case, double duration, const CaseFi
       std::visit(EventHandler{run, files}, event->what);
     SolveReport report = run.simulation->step();
     if (report.ends_run()) return report;
-    for (const auto& measure : run.measures) measure->look(*run.simulation, report);
+    for (const auto& measure : run.measures) measure->update(*run.simulation, report);
     if (progress) progress(static_cast<double>(s + 1) / static_cast<double>(n_steps));
   }
   return {};
@@ -147,15 +147,9 @@ std::optional<double> bound_of(const HardCase& hard_case, const Check& check,
   return exception == nullptr ? std::optional(check.bound) : exception->bound;
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 std::string sentence(const CaseFinding& finding) {
-  return finding.what + ": expected at most " + number(finding.bound) + ", got " +
-         number(finding.found) + (finding.detail.empty() ? "" : " (" + finding.detail + ")");
+  return finding.what + ": expected at most " + three_digits(finding.bound) + ", got " +
+         three_digits(finding.found) + (finding.detail.empty() ? "" : " (" + finding.detail + ")");
 }
 
 void judge(std::vector<CaseFinding> findings, CaseOutcome& outcome) {
@@ -218,24 +212,10 @@ void fail_as_accepted(CaseOutcome& outcome) {
 
 }  // namespace
 
-const char* name(CaseStatus status) {
-  switch (status) {
-    case CaseStatus::ok:
-      return "ok";
-    case CaseStatus::stopped:
-      return "stopped";
-    case CaseStatus::refused:
-      return "refused";
-    case CaseStatus::failed:
-      return "failed";
-  }
-  return "";
-}
-
 CaseOutcome run_case(const HardCase& hard_case, const StepperType& type, CaseLength length,
                      const CaseFiles& files, const CaseProgress& progress) {
   CaseOutcome outcome{.case_name = hard_case.name, .stepper = type.name};
-  outcome.asked = length == CaseLength::brief ? hard_case.brief : hard_case.full;
+  outcome.asked = length == CaseLength::brief ? hard_case.seconds.brief : hard_case.seconds.full;
   std::vector<VariantRun> runs;
   try {
     for (const CaseVariant& variant : hard_case.variants)

@@ -14,7 +14,11 @@ enum class CaseStatus {
   failed,   ///< it ran and did not keep what was asked
 };
 
-const char* name(CaseStatus status);
+inline constexpr const char* kCaseStatusNames[] = {"ok", "stopped", "refused", "failed"};
+
+constexpr const char* name(CaseStatus status) {
+  return kCaseStatusNames[static_cast<std::size_t>(status)];
+}
 
 /// Outcome of a case with one stepper.
 struct CaseOutcome {
@@ -36,10 +40,9 @@ struct CaseOutcome {
 /// Told how far a run has come, in [0, 1]; may be empty.
 using CaseProgress = std::function<void(double share)>;
 
-/// Runs a case with one stepper of files.tables. Runs that would cost more than a case may,
-/// by StepperType::substep_cost, are cut to a shorter time: at least one step.
-///
-/// Throws InputError for a scene's file that cannot be had or is not JSON.
+/// Runs a case with one stepper of files.tables; what would cost more than a case may
+/// (StepperType::substep_cost) is cut, to at least one step. Throws InputError for a scene's file
+/// that is missing or no JSON.
 CaseOutcome run_case(const HardCase& hard_case, const StepperType& type, CaseLength length,
                      const CaseFiles& files, const CaseProgress& progress = {});
 

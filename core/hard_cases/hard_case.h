@@ -21,7 +21,7 @@ class CaseMeasure {
  public:
   virtual ~CaseMeasure() = default;
   /// Looks at the start of the run, with an empty report, and after each step.
-  virtual void look(const Simulation& simulation, const SolveReport& step) = 0;
+  virtual void update(const Simulation& simulation, const SolveReport& step) = 0;
   virtual double value() const = 0;
   /// Sentence for a reader on a value that is too large; mostly empty.
   virtual std::string detail() const { return {}; }
@@ -110,12 +110,16 @@ struct CaseFiles {
 /// A case has a short length, for tests, and a full one.
 enum class CaseLength { brief, full };
 
+/// Simulated time of a case at each length [s].
+struct CaseSeconds {
+  double brief = 0, full = 0;
+};
+
 /// A scene that breaks cloth systems, and what is asked of its run.
 struct HardCase {
   std::string name;    ///< name of its scene's file too, without ".json"
   std::string breaks;  ///< fault of other systems, a sentence
-  double brief = 0;    ///< simulated [s]
-  double full = 0;
+  CaseSeconds seconds = {};
   std::vector<SceneOverride> brief_changes = {};  ///< changes to the scene where it is run short
   std::vector<StepperSetting> settings = {};
   std::vector<CaseVariant> variants = {{}};

@@ -185,10 +185,6 @@ bool EdgeCollapse::keeps_triangles(VertexId from, VertexId to) const {
   return triangles_of_[from].size() + triangles_of_[to].size() != 2 * n_shared_triangles(from, to);
 }
 
-bool EdgeCollapse::keeps_border(VertexId from, VertexId to) const {
-  return !is_border_[from] || is_border_[to];
-}
-
 bool EdgeCollapse::keeps_links(VertexId from, VertexId to) {
   const std::size_t n_shared = n_shared_triangles(from, to);
   if (is_border_[from] && is_border_[to] && n_shared != 1) return false;

@@ -16,14 +16,13 @@ namespace pleat {
 ///
 /// The cost is the quadric of both vertices where they meet: planes of the triangles (by area) and
 /// of the border (upright on it, by squared length), and a thousandth of a plane for each vertex
-/// that was merged there. This last part spreads collapses evenly where planes cost nothing. Equal
-/// costs go by the edge's length, then by numbers.
+/// that was merged there. Equal costs go by the edge's length, then by numbers.
 ///
 /// Never collapsed are vertices that are fixed, corners of the border (which turns there by more
 /// than 45 degrees) and vertices where more than one fan of triangles meets. No collapse turns a
 /// triangle over or leaves it without area, joins what was apart (link condition), takes the last
-/// triangle of a vertex or pulls a border inwards. Of these guards flips, borders and links can be
-/// left out (CollapseGuards); levels may then be no sound meshes.
+/// triangle of a vertex or pulls a border inwards. Guards can be left out (CollapseGuards); levels
+/// may then be no sound meshes.
 ///
 /// Source: Garland & Heckbert, Surface simplification using quadric error metrics, SIGGRAPH 1997;
 /// Dey, Edelsbrunner, Guha & Nekhayev, Topology preserving edge contraction, Publications de
@@ -61,7 +60,9 @@ class EdgeCollapse {
   std::vector<VertexId> neighbours(VertexId vertex) const;
   std::size_t n_shared_triangles(VertexId from, VertexId to) const;
   bool keeps_triangles(VertexId from, VertexId to) const;
-  bool keeps_border(VertexId from, VertexId to) const;
+  bool keeps_border(VertexId from, VertexId to) const {
+    return !is_border_[from] || is_border_[to];
+  }
   bool keeps_links(VertexId from, VertexId to);
   bool keeps_shapes(VertexId from, VertexId to) const;
   bool is_allowed(VertexId from, VertexId to);

@@ -14,12 +14,10 @@ namespace pleat {
 /// A shortest path is straight across triangles laid flat, and turns only at vertices whose angles
 /// sum to more than a full turn, or on a border to more than half of one; it leaves half a turn to
 /// either side there. So straight paths from the start, and from such vertices into the few
-/// directions that this leaves, joined by Dijkstra's algorithm, are exact. Every length is that of
-/// a path on the surface: rounding apart, no strain-free cloth is stretched by it.
+/// directions that this leaves, joined by Dijkstra's algorithm, are exact.
 ///
 /// Source: Mitchell, Mount & Papadimitriou, The discrete geodesic problem, SIAM Journal on
-/// Computing 1987 (straight paths as windows on edges; here none is trimmed by another, as paths
-/// are a few edges long).
+/// Computing 1987 (windows on edges; here none is trimmed by another).
 class SurfaceDistances {
  public:
   explicit SurfaceDistances(const TriangleMesh& mesh);

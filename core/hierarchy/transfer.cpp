@@ -1,7 +1,6 @@
 #include "core/hierarchy/transfer.h"
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 
 #include "core/base/check.h"
 

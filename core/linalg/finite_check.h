@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
 
 #include "core/linalg/solve_report.h"
 #include "core/linalg/sparse.h"

@@ -7,9 +7,8 @@
 
 namespace pleat {
 
-/// Changes of a descent's gradient in its last steps, beyond what its metric knows.
-///
-/// Source: Nocedal & Wright, Numerical optimization, 2nd ed., Springer 2006, section 7.2.
+/// Changes of a descent's gradient in its last steps, beyond what its metric knows. Source: Nocedal
+/// & Wright, Numerical optimization, Springer 2006, section 7.2.
 class LbfgsCorrections {
  public:
   /// most  how many to keep, the latest; each costs four products of two columns
@@ -21,9 +20,7 @@ class LbfgsCorrections {
   /// The gradient changed along with the positions. Nothing where it does not curve upward.
   void remember(Positions change, Positions gradient_change);
 
-  /// -H g by the two-loop recursion.
-  ///
-  /// solve  the inverse of the metric times a gradient
+  /// -H g by the two-loop recursion; `solve` is the inverse of the metric times a gradient.
   Positions descent(const Positions& gradient,
                     const std::function<Positions(const Positions&)>& solve) const;
 

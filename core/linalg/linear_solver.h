@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/vec.h"
 #include "core/linalg/solve_report.h"
 #include "core/linalg/sparse.h"
 
@@ -9,9 +10,9 @@ namespace pleat {
 ///
 /// Call `analyze` once per sparsity pattern, `factorize` once per set of values, `solve` as often
 /// as wanted. None of the three allocates in our code when called again with the same pattern and
-/// number of columns, but for a list of cg that may grow with the values and what multigrid needs
-/// when it first takes over. Throws ContractError when
-/// the calls come in another order or sizes disagree; numeric trouble is reported.
+/// number of columns, but for cg's list that may grow with the values and what multigrid first
+/// needs. Throws ContractError for calls in another order or sizes that disagree; numeric trouble
+/// is reported.
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
@@ -24,7 +25,7 @@ class LinearSolver {
 
   /// Sets the places of the vertices to which the unknowns belong, three each [m]: some solvers are
   /// faster for it. Of effect from the next factorisation on; sizes that differ count as not known.
-  virtual void set_places(const Eigen::Ref<const Eigen::VectorXd>& /*places*/) {}
+  virtual void set_places(const VectorView& /*places*/) {}
 
   /// rhs       n x m right-hand sides
   /// solution  n x m; an iterative solver starts from what it holds, if that is better than zero

@@ -5,20 +5,6 @@
 
 namespace pleat {
 
-const char* name(SolveStatus status) {
-  switch (status) {
-    case SolveStatus::ok:
-      return "ok";
-    case SolveStatus::not_converged:
-      return "not_converged";
-    case SolveStatus::not_positive_definite:
-      return "not_positive_definite";
-    case SolveStatus::not_finite:
-      return "not_finite";
-  }
-  return "";
-}
-
 void SolveReport::add(SolveReport part) {
   iterations += part.iterations;
   relative_residual = std::max(relative_residual, part.relative_residual);

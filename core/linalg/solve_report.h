@@ -12,7 +12,12 @@ enum class SolveStatus {
   not_finite,  ///< NaN, infinity or a number beyond all bounds; the message names the first one
 };
 
-const char* name(SolveStatus status);
+inline constexpr const char* kSolveStatusNames[] = {"ok", "not_converged", "not_positive_definite",
+                                                    "not_finite"};
+
+constexpr const char* name(SolveStatus status) {
+  return kSolveStatusNames[static_cast<std::size_t>(status)];
+}
 
 struct SolveReport {
   SolveStatus status = SolveStatus::ok;

@@ -13,9 +13,7 @@ namespace pleat {
 /// A vertex is a fan of faces around a point that edges join. A cut parts faces along edges; where
 /// a fan falls apart, the part of its first face keeps the vertex, and each other one gets a new
 /// vertex, appended. Two faces have an edge in common as long as they have both of its ends. So a
-/// mesh whose vertices are fans stays one, also where a cut meets a border or an earlier cut.
-///
-/// Source: docs/methods/tearing.md.
+/// mesh whose vertices are fans stays one. Source: docs/methods/tearing.md.
 class CutFaces {
  public:
   /// corners    of one face after the other, wound alike, at most two faces at an edge

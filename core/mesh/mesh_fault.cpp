@@ -52,7 +52,7 @@ std::vector<Side> sides_by_edge(const std::vector<Triangle>& triangles) {
   return sides;
 }
 
-std::optional<MeshFault> first_without_area(const Eigen::Ref<const Positions>& positions,
+std::optional<MeshFault> first_without_area(const PositionsView& positions,
                                             const std::vector<Triangle>& triangles,
                                             int first_vertex) {
   for (std::size_t f = 0; f < triangles.size(); ++f) {
@@ -96,7 +96,7 @@ std::optional<MeshFault> first_lonely_vertex(Eigen::Index n_vertices,
 
 }  // namespace
 
-std::optional<MeshFault> mesh_fault(const Eigen::Ref<const Positions>& positions,
+std::optional<MeshFault> mesh_fault(const PositionsView& positions,
                                     const std::vector<Triangle>& triangles, int first_vertex) {
   if (auto fault = first_without_area(positions, triangles, first_vertex)) return fault;
   if (auto fault = first_at_an_edge(triangles, first_vertex)) return fault;

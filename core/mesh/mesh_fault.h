@@ -25,7 +25,7 @@ struct MeshFault {
 /// positions     [m], finite
 /// triangles     of vertices that are there
 /// first_vertex  the number that vertex 0 has in sentences
-std::optional<MeshFault> mesh_fault(const Eigen::Ref<const Positions>& positions,
+std::optional<MeshFault> mesh_fault(const PositionsView& positions,
                                     const std::vector<Triangle>& triangles, int first_vertex);
 
 }  // namespace pleat

@@ -4,7 +4,6 @@
 #include <map>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "core/base/check.h"
 #include "core/mesh/mesh_lines.h"

@@ -8,7 +8,7 @@
 namespace pleat {
 
 std::vector<Corners> triangle_corners(std::span<const Triangle> triangles,
-                                      const Eigen::Ref<const Positions>& positions) {
+                                      const PositionsView& positions) {
   std::vector<Corners> corners;
   corners.reserve(triangles.size());
   for (const Triangle& t : triangles)

@@ -11,7 +11,7 @@ namespace pleat {
 using Corners = std::array<Vec3, 3>;  ///< corners of a triangle [m]
 
 std::vector<Corners> triangle_corners(std::span<const Triangle> triangles,
-                                      const Eigen::Ref<const Positions>& positions);
+                                      const PositionsView& positions);
 
 /// A binary tree of boxes around triangles that lie near one another.
 class TriangleBoxes {
@@ -34,9 +34,7 @@ class TriangleBoxes {
   /// Every triangle once; those of a node stand together.
   const std::vector<std::size_t>& order() const { return order_; }
 
-  /// Keeps the tree and fits its boxes to triangles that have moved.
-  ///
-  /// ordered  the triangles as `order` has them
+  /// Keeps the tree and fits its boxes to triangles that have moved, ordered as `order` has them.
   void fit(const std::vector<Corners>& ordered);
 
  private:

@@ -1,7 +1,6 @@
 #include "core/mesh/triangle_mesh.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <unordered_map>
 
 #include "core/base/check.h"

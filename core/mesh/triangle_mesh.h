@@ -18,8 +18,7 @@ using Triangle = std::array<VertexId, 3>;
 using CornerTexture = Eigen::Matrix<double, 2, 3>;
 
 /// Any triangle mesh at rest. Unstrained, its triangles are those of its flat pattern, and without
-/// one those of the positions. Cloth is woven flat, so bending is measured from the flat state
-/// however the mesh stands in space.
+/// one those of the positions. Bending is measured from the flat state.
 struct TriangleMesh {
   Positions rest_positions;           ///< [m]
   std::vector<Triangle> triangles;    ///< at most two at an edge, none without area

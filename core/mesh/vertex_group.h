@@ -15,10 +15,8 @@ struct VertexGroup {
   std::vector<VertexId> vertices;  ///< ascending, each once
 };
 
-/// The group in a refinement: it gets the middle of every edge whose two ends are in it.
-///
-/// n_vertices  before the refinement
-/// middles     the ends of each edge split, in the order in which their middles were appended
+/// The group in a refinement of so many vertices: it gets the middle of every edge whose two ends
+/// are in it. `middles` are the ends of each edge split, in the order of the middles appended.
 VertexGroup refined(VertexGroup group, int n_vertices,
                     std::span<const std::array<VertexId, 2>> middles);
 

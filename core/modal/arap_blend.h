@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "core/modal/shape_space.h"
 
 namespace pleat {

@@ -8,9 +8,6 @@
 namespace pleat {
 namespace {
 
-using Mat9 = Eigen::Matrix<double, 9, 9>;
-using Vec9 = Eigen::Matrix<double, 9, 1>;
-
 /// d2/dF2 of min_R |F - R|^2, of the columns of F one below the other: 2 I less 4/(s_i + s_j) in
 /// the directions in which R turns,
 ///

@@ -1,6 +1,5 @@
 #include "core/modal/box_surface.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>

@@ -5,12 +5,8 @@
 
 namespace pleat {
 
-/// Puts middles between neighbours, where they are farthest apart first, as long as `goes_on`.
-///
-/// frames    two or more, in order
-/// distance  of two neighbours
-/// middle    of two neighbours
-/// goes_on   asked with the number of frames and the widest distance
+/// Puts middles of two neighbours between the frames, two or more in order, where they are farthest
+/// apart first, as long as `goes_on`, asked with the number of frames and the widest distance.
 template <class Frame, class Distance, class Middle, class GoesOn>
 void fill_in(std::vector<Frame>& frames, const Distance& distance, const Middle& middle,
              const GoesOn& goes_on) {

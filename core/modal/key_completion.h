@@ -5,9 +5,7 @@
 namespace pleat {
 
 /// Fills in the motion between key shapes: the shape in the middle of two neighbours becomes a new
-/// neighbour of both, until there are enough.
-///
-/// Surfaces may fall into parts; each is a body of its own.
+/// neighbour of both, until there are enough. Each part of a surface is a body of its own.
 class KeyCompletion {
  public:
   /// keys  surfaces with the same vertices, two or more, each vertex in a triangle [m]

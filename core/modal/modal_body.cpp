@@ -1,13 +1,11 @@
 #include "core/modal/modal_body.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "core/base/check.h"
 #include "core/base/rigid_motion.h"
 #include "core/modal/arap_energy.h"
-#include "core/modal/nearest_rotation.h"
 #include "core/modal/shape_clusters.h"
 
 namespace pleat {
@@ -168,10 +166,6 @@ ModalBody::Shape ModalBody::middle(const Shape& a, const Shape& b) const {
       shift_half_way(a.key.shape * points_, b.key.shape * points_, middle.shape * points_);
   middle.shape.col(0) += shift / space_.functions(0, 0);
   return {arap_->key(middle.shape), middle.distances, middle.converged};
-}
-
-double ModalBody::distance(const Shape& a, const Shape& b) const {
-  return (a.key.shape - b.key.shape).norm() / std::sqrt(space_.masses.sum());
 }
 
 Positions ModalBody::surface(const Shape& shape, int left, double share_of_next) const {

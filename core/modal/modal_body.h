@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "core/modal/reduced_arap.h"
@@ -74,7 +75,9 @@ class ModalBody {
   /// Half way, as a whole too (turn_half_way, shift_half_way).
   Shape middle(const Shape& a, const Shape& b) const;
   /// How far apart two shapes are, as the root of the mean square over the volume [m].
-  double distance(const Shape& a, const Shape& b) const;
+  double distance(const Shape& a, const Shape& b) const {
+    return (a.key.shape - b.key.shape).norm() / std::sqrt(space_.masses.sum());
+  }
   /// The surface of a shape that lies between key `left` and the next one, with so much of the
   /// detail of that next one; a key's own surface to rounding.
   Positions surface(const Shape& shape, int left, double share_of_next) const;

@@ -12,10 +12,8 @@ struct RotationSvd {
 
 RotationSvd rotation_svd(const Mat3& F);
 
-/// The rotation nearest to F, without reflection even where F turns inside out.
-///
-/// Source: Higham, Computing the polar decomposition, SIAM J. Scientific and Statistical Computing
-/// 7, 1986.
+/// The rotation nearest to F, without reflection even where F turns inside out. Source: Higham,
+/// Computing the polar decomposition, SIAM J. Scientific and Statistical Computing 7, 1986.
 Mat3 nearest_rotation(const Mat3& F);
 
 }  // namespace pleat

@@ -1,6 +1,5 @@
 #include "core/modal/shown_modes.h"
 
-#include <algorithm>
 #include <string>
 
 #include "core/base/check.h"

@@ -22,22 +22,18 @@ struct SurfaceModes {
 /// Modes whose unknowns are the surface's own.
 SurfaceModes whole_surface_modes(const Modes& modes);
 
-/// Modes of the volume that carries the surface, under the energy of 1 Pa and 1 kg/m^3.
-///
-/// Throws InputError where no volume can carry it, and where it has fewer modes than are asked for.
+/// Modes of the volume that carries the surface, under the energy of 1 Pa and 1 kg/m^3. Throws
+/// InputError where there is none, or fewer modes than are asked for.
 SurfaceModes volume_surface_modes(const Positions& surface, const std::vector<Triangle>& triangles,
                                   const ModalOptions& options);
 
-/// Modes of the surface alone, under its own energy of 1 N/m and with 1 kg/m^2.
-///
-/// Throws InputError for a vertex in no triangle and where it has fewer modes than `count`.
+/// Modes of the surface alone, of 1 N/m and 1 kg/m^2. Throws InputError for a vertex in no triangle
+/// and where it has fewer modes than `count`.
 SurfaceModes surface_modes(const Positions& surface, const std::vector<Triangle>& triangles,
                            int count);
 
 /// How much of a completed motion is in the first modes of the first key's volume, its rigid ones
-/// first (motion_shares).
-///
-/// Throws InputError for a surface of several parts.
+/// first (motion_shares). Throws InputError for a surface of several parts.
 Eigen::VectorXd volume_motion_shares(const KeyCompletion& completion,
                                      const std::vector<KeyCompletion::Frame>& frames);
 

@@ -22,8 +22,7 @@ AirDrag::AirDrag(std::vector<Triangle> triangles, const AirOptions& options, int
   set_time(0);
 }
 
-void AirDrag::evaluate(const Eigen::Ref<const Positions>& positions,
-                       const Eigen::Ref<const Positions>& velocities) {
+void AirDrag::evaluate(const PositionsView& positions, const PositionsView& velocities) {
   drag_.setZero();
   resistance_.setZero();
   for (const Triangle& t : triangles_) {
@@ -66,9 +65,8 @@ Mat3 AirDrag::resistance(VertexId vertex) const {
   return resistance;
 }
 
-void AirDrag::add_forces(const Eigen::Ref<const Positions>& positions,
-                         const Eigen::Ref<const Positions>& velocities,
-                         std::span<const HangingVertex> hanging, Eigen::Ref<Positions> forces) {
+void AirDrag::add_forces(const PositionsView& positions, const PositionsView& velocities,
+                         std::span<const HangingVertex> hanging, PositionsRef forces) {
   evaluate(positions, velocities);
   // S^T D S lumped to its diagonal gives each parent half of a hanging vertex's D.
   pull_to_parents(hanging, drag_);
@@ -76,11 +74,10 @@ void AirDrag::add_forces(const Eigen::Ref<const Positions>& positions,
   forces += drag_;
 }
 
-void AirDrag::add_damped_forces(const Eigen::Ref<const Positions>& positions,
-                                const Eigen::Ref<const Positions>& velocities,
+void AirDrag::add_damped_forces(const PositionsView& positions, const PositionsView& velocities,
                                 const Eigen::VectorXd& masses,
                                 std::span<const HangingVertex> hanging, double h,
-                                Positions& applied, Eigen::Ref<Positions> forces) {
+                                Positions& applied, PositionsRef forces) {
   evaluate(positions, velocities);
   pull_to_parents(hanging, drag_);
   pull_to_parents(hanging, resistance_);

@@ -31,8 +31,7 @@ class AirDrag {
   bool has_wind() const { return wind_.has_value(); }
 
   /// Takes the law above at these places and velocities, for `forces` and `resistance`.
-  void evaluate(const Eigen::Ref<const Positions>& positions,
-                const Eigen::Ref<const Positions>& velocities);
+  void evaluate(const PositionsView& positions, const PositionsView& velocities);
   /// The force on each vertex [N].
   const Positions& forces() const { return drag_; }
   /// D >= -df/dv lumped to the vertex [N s/m].
@@ -40,9 +39,8 @@ class AirDrag {
 
   /// Evaluates, and adds the law to `forces` [N]; what acts on vertices that hang, to their
   /// parents', also in `resistance`.
-  void add_forces(const Eigen::Ref<const Positions>& positions,
-                  const Eigen::Ref<const Positions>& velocities,
-                  std::span<const HangingVertex> hanging, Eigen::Ref<Positions> forces);
+  void add_forces(const PositionsView& positions, const PositionsView& velocities,
+                  std::span<const HangingVertex> hanging, PositionsRef forces);
 
   /// Adds F in place of the law's f, for steps of h [s], positive, that do not solve for drag: F <-
   /// F + (I + h D/m)^-1 (f - F) from step to step. First-order consistent, stable for any h, and
@@ -50,10 +48,9 @@ class AirDrag {
   /// drag never turns motion round.
   ///
   /// applied  F, one column a vertex, zero at first [N]; not used in still air
-  void add_damped_forces(const Eigen::Ref<const Positions>& positions,
-                         const Eigen::Ref<const Positions>& velocities,
+  void add_damped_forces(const PositionsView& positions, const PositionsView& velocities,
                          const Eigen::VectorXd& masses, std::span<const HangingVertex> hanging,
-                         double h, Positions& applied, Eigen::Ref<Positions> forces);
+                         double h, Positions& applied, PositionsRef forces);
 
   /// Sets a factor on the force, 1 at first: lets drag keep up while motion is carried over to
   /// cloth of another weight.

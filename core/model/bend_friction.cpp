@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kYield = kPreSlidingCurvature;  // e_y
 
-Vec3 curvature_vector(const BendElement& bend, const Eigen::Ref<const Positions>& columns) {
+Vec3 curvature_vector(const BendElement& bend, const PositionsView& columns) {
   return bend.weights[0] * columns.col(bend.vertices[0]) +
          bend.weights[1] * columns.col(bend.vertices[1]) +
          bend.weights[2] * columns.col(bend.vertices[2]);
@@ -153,21 +153,19 @@ void BendFriction::end_substep(const Positions& positions) {
 }
 
 /// The strain at these places, without slip.
-double BendFriction::bent(const Element& element,
-                          const Eigen::Ref<const Positions>& positions) const {
+double BendFriction::bent(const Element& element, const PositionsView& positions) const {
   return element.strain +
          (element.normal.dot(curvature_vector(element.bend, positions)) - element.curvature);
 }
 
-double BendFriction::energy(const Eigen::Ref<const Positions>& positions) const {
+double BendFriction::energy(const PositionsView& positions) const {
   double sum = 0;
   for (const Element& element : elements_)
     sum += element.share * element.bend.stiffness * huber(bent(element, positions), knee_);
   return sum;
 }
 
-void BendFriction::add_forces(const Eigen::Ref<const Positions>& positions,
-                              Eigen::Ref<Positions> forces) const {
+void BendFriction::add_forces(const PositionsView& positions, PositionsRef forces) const {
   for (const Element& element : elements_) {
     const BendElement& bend = element.bend;
     const Vec3 moment =
@@ -176,8 +174,7 @@ void BendFriction::add_forces(const Eigen::Ref<const Positions>& positions,
   }
 }
 
-double BendFriction::tangent(const Element& element,
-                             const Eigen::Ref<const Positions>& positions) const {
+double BendFriction::tangent(const Element& element, const PositionsView& positions) const {
   return std::abs(bent(element, positions)) <= knee_ ? element.share * element.bend.stiffness : 0;
 }
 

@@ -78,10 +78,10 @@ class BendFriction {
   void end_substep(const Positions& positions);
 
   /// Energy [J]; at the places of the last evaluation it is what is stored.
-  double energy(const Eigen::Ref<const Positions>& positions) const;
-  void add_forces(const Eigen::Ref<const Positions>& positions, Eigen::Ref<Positions> forces) const;
+  double energy(const PositionsView& positions) const;
+  void add_forces(const PositionsView& positions, PositionsRef forces) const;
   /// The second derivative of an element's energy by its curvature, never negative [N m^3].
-  double tangent(const Element& element, const Eigen::Ref<const Positions>& positions) const;
+  double tangent(const Element& element, const PositionsView& positions) const;
 
   std::span<const Element> elements() const { return elements_; }
   /// Lost by slipping since the start [J].
@@ -90,7 +90,7 @@ class BendFriction {
 
  private:
   void find_curvatures(const Positions& positions, const Positions& places_of_normals);
-  double bent(const Element& element, const Eigen::Ref<const Positions>& positions) const;
+  double bent(const Element& element, const PositionsView& positions) const;
 
   std::vector<Element> elements_;
   std::vector<Triangle> surface_;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/motion.h"
-#include "core/contact/contact_stage.h"
+#include "core/contact/contact_pass.h"
 #include "core/fabric/chord_bending.h"
 #include "core/fabric/hinge_bending.h"
 #include "core/fabric/membrane.h"
@@ -50,7 +50,7 @@ struct ClothModel {
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
   std::vector<Pin> pins;      ///< at most one per vertex, none where it hangs
   std::optional<AirDrag> air;
-  std::optional<ContactStage> contact;
+  std::optional<ContactPass> contact;
   std::optional<StrainLimit> strain_limit;
   TriangleMesh surface;  ///< base of coarser levels; empty unless the method asks for it
   RestCoordinates rest_coordinates;  ///< 2 x n [m], or empty: some steppers order their work by it
@@ -58,6 +58,12 @@ struct ClothModel {
   int n_vertices() const { return static_cast<int>(masses.size()); }
   /// True where a vertex is in the middle of its parents, which have its mass.
   bool hangs(VertexId vertex) const { return masses[vertex] == 0; }
+  /// Says for each vertex whether a pin holds it.
+  std::vector<bool> pinned() const {
+    std::vector<bool> is_pinned(static_cast<std::size_t>(n_vertices()), false);
+    for (const Pin& pin : pins) is_pinned[pin.vertex] = true;
+    return is_pinned;
+  }
   bool has_fitted_bending() const { return fitted_bending.rows() > 0; }
   /// True when springs and quadratic bending are all that holds it together: what position-based
   /// and projective steps are made for.

@@ -6,7 +6,7 @@
 
 namespace pleat {
 
-double elastic_energy(const ClothModel& model, const Eigen::Ref<const Positions>& positions) {
+double elastic_energy(const ClothModel& model, const PositionsView& positions) {
   double energy = 0;
   for_each_element_kind(model, [&](const auto& kind) { kind.add_energy(positions, energy); });
   return energy;
@@ -26,21 +26,19 @@ double total_energy(const ClothModel& model, const State& state) {
   return energy_parts(model, state).sum();
 }
 
-void add_elastic_forces(const ClothModel& model, const Eigen::Ref<const Positions>& positions,
-                        Eigen::Ref<Positions> forces) {
+void add_elastic_forces(const ClothModel& model, const PositionsView& positions,
+                        PositionsRef forces) {
   for_each_element_kind(model, [&](const auto& kind) { kind.add_forces(positions, forces); });
 }
 
-void add_damping_forces(const ClothModel& model, const Eigen::Ref<const Positions>& positions,
-                        const Eigen::Ref<const Positions>& velocities,
-                        Eigen::Ref<Positions> forces) {
+void add_damping_forces(const ClothModel& model, const PositionsView& positions,
+                        const PositionsView& velocities, PositionsRef forces) {
   for_each_element_kind(
       model, [&](const auto& kind) { kind.add_damping_forces(positions, velocities, forces); });
 }
 
-void add_internal_forces(const ClothModel& model, const Eigen::Ref<const Positions>& positions,
-                         const Eigen::Ref<const Positions>& velocities,
-                         Eigen::Ref<Positions> forces) {
+void add_internal_forces(const ClothModel& model, const PositionsView& positions,
+                         const PositionsView& velocities, PositionsRef forces) {
   for_each_element_kind(model, [&](const auto& kind) {
     if constexpr (std::decay_t<decltype(kind)>::kHasInternalForces) {
       kind.add_internal_forces(positions, velocities, forces);
@@ -51,7 +49,7 @@ void add_internal_forces(const ClothModel& model, const Eigen::Ref<const Positio
   });
 }
 
-void add_gravity(const ClothModel& model, Eigen::Ref<Positions> forces) {
+void add_gravity(const ClothModel& model, PositionsRef forces) {
   forces.noalias() += model.gravity * model.masses.transpose();
 }
 

@@ -6,7 +6,7 @@
 namespace pleat {
 
 /// Energy stored in the cloth, stretched and bent [J].
-double elastic_energy(const ClothModel& model, const Eigen::Ref<const Positions>& positions);
+double elastic_energy(const ClothModel& model, const PositionsView& positions);
 
 /// Energy of moving cloth by its kinds [J].
 struct EnergyParts {
@@ -23,20 +23,18 @@ EnergyParts energy_parts(const ClothModel& model, const State& state);
 double total_energy(const ClothModel& model, const State& state);
 
 /// Adds the forces of all elements [N].
-void add_elastic_forces(const ClothModel& model, const Eigen::Ref<const Positions>& positions,
-                        Eigen::Ref<Positions> forces);
+void add_elastic_forces(const ClothModel& model, const PositionsView& positions,
+                        PositionsRef forces);
 
 /// Adds the forces of dampers and of the membrane's viscosity [N].
-void add_damping_forces(const ClothModel& model, const Eigen::Ref<const Positions>& positions,
-                        const Eigen::Ref<const Positions>& velocities,
-                        Eigen::Ref<Positions> forces);
+void add_damping_forces(const ClothModel& model, const PositionsView& positions,
+                        const PositionsView& velocities, PositionsRef forces);
 
 /// Adds both [N], with one look at springs.
-void add_internal_forces(const ClothModel& model, const Eigen::Ref<const Positions>& positions,
-                         const Eigen::Ref<const Positions>& velocities,
-                         Eigen::Ref<Positions> forces);
+void add_internal_forces(const ClothModel& model, const PositionsView& positions,
+                         const PositionsView& velocities, PositionsRef forces);
 
 /// Adds weight [N].
-void add_gravity(const ClothModel& model, Eigen::Ref<Positions> forces);
+void add_gravity(const ClothModel& model, PositionsRef forces);
 
 }  // namespace pleat

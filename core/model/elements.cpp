@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/check.h"
 #include "core/fabric/taut_springs.h"
 
 namespace pleat {
@@ -15,19 +14,18 @@ void check_springs(const std::vector<Spring>& springs) {
                 "stiffness, rest length and damping are not negative");
 }
 
-double spring_energy(const Spring& spring, const Eigen::Ref<const Positions>& positions) {
+double spring_energy(const Spring& spring, const PositionsView& positions) {
   const double stretch =
       (positions.col(spring.a) - positions.col(spring.b)).norm() - spring.rest_length;
   return 0.5 * spring.stiffness * stretch * stretch;
 }
 
-bool is_taut(const Spring& spring, const Eigen::Ref<const Positions>& positions) {
+bool is_taut(const Spring& spring, const PositionsView& positions) {
   return (positions.col(spring.a) - positions.col(spring.b)).squaredNorm() >
          spring.rest_length * spring.rest_length;
 }
 
-void add_spring_force(const Spring& spring, const Eigen::Ref<const Positions>& positions,
-                      Eigen::Ref<Positions> forces) {
+void add_spring_force(const Spring& spring, const PositionsView& positions, PositionsRef forces) {
   const SpringAxis axis = spring_axis(spring, positions);
   const Vec3 pull = spring.stiffness * (axis.length - spring.rest_length) * axis.direction;
   forces.col(spring.a) -= pull;
@@ -35,8 +33,8 @@ void add_spring_force(const Spring& spring, const Eigen::Ref<const Positions>& p
 }
 
 /// The relative velocity of the ends that the damper resists [m/s].
-Vec3 damped_velocity(const Spring& spring, const SpringAxis& axis,
-                     const Eigen::Ref<const Positions>& velocities, DampingDirection direction) {
+Vec3 damped_velocity(const Spring& spring, const SpringAxis& axis, const PositionsView& velocities,
+                     DampingDirection direction) {
   Vec3 relative = velocities.col(spring.a) - velocities.col(spring.b);
   if (direction == DampingDirection::isotropic) return relative;
   return axis.direction.dot(relative) * axis.direction;
@@ -52,7 +50,7 @@ void add_spring_sums(const std::vector<Spring>& springs, RowSums& sums) {
 }
 
 /// The curvature vector of a bending element [1/m].
-Vec3 curvature(const BendElement& bend, const Eigen::Ref<const Positions>& positions) {
+Vec3 curvature(const BendElement& bend, const PositionsView& positions) {
   return bend.weights[0] * positions.col(bend.vertices[0]) +
          bend.weights[1] * positions.col(bend.vertices[1]) +
          bend.weights[2] * positions.col(bend.vertices[2]);
@@ -66,7 +64,7 @@ void add_bend_sums(const BendElement& bend, RowSums& sums) {
 }
 
 /// The material part of an unstrained element's stiffness: its shape lies in the gradients.
-Eigen::Matrix<double, 9, 9> rest_stiffness(const MembraneLaw& law, MembraneElement element) {
+Mat9 rest_stiffness(const MembraneLaw& law, MembraneElement element) {
   const Eigen::Matrix2d ends = element.gradients.bottomRows<2>().inverse();  // columns x1, x2
   Positions positions = Positions::Zero(3, 3);
   positions.topRightCorner<2, 2>() = ends;
@@ -88,19 +86,17 @@ void for_each_below_diagonal(const SparseMatrix& lower, Visit&& visit) {
 
 void SpringElements::check() const { check_springs(model_.springs); }
 
-void SpringElements::add_energy(const Eigen::Ref<const Positions>& positions,
-                                double& energy) const {
+void SpringElements::add_energy(const PositionsView& positions, double& energy) const {
   for (const Spring& spring : model_.springs) energy += spring_energy(spring, positions);
 }
 
-void SpringElements::add_forces(const Eigen::Ref<const Positions>& positions,
-                                Eigen::Ref<Positions> forces) const {
+void SpringElements::add_forces(const PositionsView& positions, PositionsRef forces) const {
   for (const Spring& spring : model_.springs) add_spring_force(spring, positions, forces);
 }
 
-void SpringElements::add_damping_forces(const Eigen::Ref<const Positions>& positions,
-                                        const Eigen::Ref<const Positions>& velocities,
-                                        Eigen::Ref<Positions> forces) const {
+void SpringElements::add_damping_forces(const PositionsView& positions,
+                                        const PositionsView& velocities,
+                                        PositionsRef forces) const {
   for (const Spring& spring : model_.springs) {
     if (spring.damping == 0) continue;
     const Vec3 drag = spring.damping * damped_velocity(spring, spring_axis(spring, positions),
@@ -110,9 +106,9 @@ void SpringElements::add_damping_forces(const Eigen::Ref<const Positions>& posit
   }
 }
 
-void SpringElements::add_internal_forces(const Eigen::Ref<const Positions>& positions,
-                                         const Eigen::Ref<const Positions>& velocities,
-                                         Eigen::Ref<Positions> forces) const {
+void SpringElements::add_internal_forces(const PositionsView& positions,
+                                         const PositionsView& velocities,
+                                         PositionsRef forces) const {
   for (const Spring& spring : model_.springs) {
     const SpringAxis axis = spring_axis(spring, positions);
     Vec3 pull = spring.stiffness * (axis.length - spring.rest_length) * axis.direction;
@@ -127,14 +123,12 @@ void SpringElements::add_row_sums(RowSums& sums) const { add_spring_sums(model_.
 
 void TautSpringElements::check() const { check_springs(model_.taut_springs); }
 
-void TautSpringElements::add_energy(const Eigen::Ref<const Positions>& positions,
-                                    double& energy) const {
+void TautSpringElements::add_energy(const PositionsView& positions, double& energy) const {
   for (const Spring& spring : model_.taut_springs)
     if (is_taut(spring, positions)) energy += spring_energy(spring, positions);
 }
 
-void TautSpringElements::add_forces(const Eigen::Ref<const Positions>& positions,
-                                    Eigen::Ref<Positions> forces) const {
+void TautSpringElements::add_forces(const PositionsView& positions, PositionsRef forces) const {
   for (const Spring& spring : model_.taut_springs)
     if (is_taut(spring, positions)) add_spring_force(spring, positions, forces);
 }
@@ -148,13 +142,12 @@ void BendElements::check() const {
     PLEAT_CHECK(bend.stiffness >= 0, "bending stiffness is not negative");
 }
 
-void BendElements::add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const {
+void BendElements::add_energy(const PositionsView& positions, double& energy) const {
   for (const BendElement& bend : model_.bends)
     energy += 0.5 * bend.stiffness * curvature(bend, positions).squaredNorm();
 }
 
-void BendElements::add_forces(const Eigen::Ref<const Positions>& positions,
-                              Eigen::Ref<Positions> forces) const {
+void BendElements::add_forces(const PositionsView& positions, PositionsRef forces) const {
   for (const BendElement& bend : model_.bends) {
     const Vec3 moment = bend.stiffness * curvature(bend, positions);
     for (int k = 0; k < 3; ++k) forces.col(bend.vertices[k]) -= bend.weights[k] * moment;
@@ -165,28 +158,9 @@ void BendElements::add_row_sums(RowSums& sums) const {
   for (const BendElement& bend : model_.bends) add_bend_sums(bend, sums);
 }
 
-void ChordElements::add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const {
-  energy += chord_energy(model_.chord_bends, positions);
-}
-
-void ChordElements::add_forces(const Eigen::Ref<const Positions>& positions,
-                               Eigen::Ref<Positions> forces) const {
-  add_chord_forces(model_.chord_bends, positions, forces);
-}
-
 void ChordElements::add_row_sums(RowSums& sums) const {
   for (const ChordBend& bend : model_.chord_bends)
     for (const VertexId v : {bend.a, bend.b}) sums.stiffness[v] += bend.stiffness;
-}
-
-void BendFrictionElements::add_energy(const Eigen::Ref<const Positions>& positions,
-                                      double& energy) const {
-  if (!empty()) energy += model_.bend_friction->energy(positions);
-}
-
-void BendFrictionElements::add_forces(const Eigen::Ref<const Positions>& positions,
-                                      Eigen::Ref<Positions> forces) const {
-  if (!empty()) model_.bend_friction->add_forces(positions, forces);
 }
 
 void BendFrictionElements::add_row_sums(RowSums& sums) const {
@@ -195,30 +169,15 @@ void BendFrictionElements::add_row_sums(RowSums& sums) const {
     add_bend_sums(element.bend, sums);
 }
 
-void MembraneElements::check() const {
-  PLEAT_CHECK(model_.membrane_relaxation >= 0, "a relaxation time is not negative");
-}
-
-void MembraneElements::add_energy(const Eigen::Ref<const Positions>& positions,
-                                  double& energy) const {
-  energy += membrane_energy(model_.membrane, positions);
-}
-
-void MembraneElements::add_forces(const Eigen::Ref<const Positions>& positions,
-                                  Eigen::Ref<Positions> forces) const {
-  add_membrane_forces(model_.membrane, positions, forces);
-}
-
-void MembraneElements::add_damping_forces(const Eigen::Ref<const Positions>& positions,
-                                          const Eigen::Ref<const Positions>& velocities,
-                                          Eigen::Ref<Positions> forces) const {
+void MembraneElements::add_damping_forces(const PositionsView& positions,
+                                          const PositionsView& velocities,
+                                          PositionsRef forces) const {
   const double tau = model_.membrane_relaxation;
   if (tau == 0) return;
   for (const MembraneElement& element : model_.membrane.elements) {
-    Eigen::Matrix<double, 9, 1> v;
+    Vec9 v;
     for (int k = 0; k < 3; ++k) v.segment<3>(3 * k) = velocities.col(element.vertices[k]);
-    const Eigen::Matrix<double, 9, 1> drag =
-        tau * (membrane_viscosity(model_.membrane.law, element, positions) * v);
+    const Vec9 drag = tau * (membrane_viscosity(model_.membrane.law, element, positions) * v);
     for (int k = 0; k < 3; ++k) forces.col(element.vertices[k]) -= drag.segment<3>(3 * k);
   }
 }
@@ -229,7 +188,7 @@ void MembraneElements::add_row_sums(RowSums& sums) const {
   const Membrane& membrane = model_.membrane;
   const double stiffening = membrane.law.stiffening_strain > 0 ? kTautFactor : 1;
   for (const MembraneElement& element : membrane.elements) {
-    const Eigen::Matrix<double, 9, 9> material = rest_stiffness(membrane.law, element);
+    const Mat9 material = rest_stiffness(membrane.law, element);
     for (int i = 0; i < 3; ++i) {
       double row = 0;
       for (int j = 0; j < 3; ++j) row += material.block<3, 3>(3 * i, 3 * j).norm();
@@ -237,15 +196,6 @@ void MembraneElements::add_row_sums(RowSums& sums) const {
       sums.damping[element.vertices[i]] += model_.membrane_relaxation * row / 2;
     }
   }
-}
-
-void HingeElements::add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const {
-  energy += hinge_energy(model_.hinges, positions);
-}
-
-void HingeElements::add_forces(const Eigen::Ref<const Positions>& positions,
-                               Eigen::Ref<Positions> forces) const {
-  add_hinge_forces(model_.hinges, positions, forces);
 }
 
 void HingeElements::add_row_sums(RowSums& sums) const {
@@ -259,15 +209,13 @@ void FittedBendingElements::check() const {
               "bending for every vertex");
 }
 
-void FittedBendingElements::add_energy(const Eigen::Ref<const Positions>& positions,
-                                       double& energy) const {
+void FittedBendingElements::add_energy(const PositionsView& positions, double& energy) const {
   for_each_below_diagonal(model_.fitted_bending, [&](Eigen::Index i, Eigen::Index j, double q) {
     energy -= 0.5 * q * (positions.col(i) - positions.col(j)).squaredNorm();
   });
 }
 
-void FittedBendingElements::add_forces(const Eigen::Ref<const Positions>& positions,
-                                       Eigen::Ref<Positions> forces) const {
+void FittedBendingElements::add_forces(const PositionsView& positions, PositionsRef forces) const {
   for_each_below_diagonal(model_.fitted_bending, [&](Eigen::Index i, Eigen::Index j, double q) {
     const Vec3 push = q * (positions.col(i) - positions.col(j));
     forces.col(i) += push;

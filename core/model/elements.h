@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/check.h"
 #include "core/fabric/element_hessian.h"
 #include "core/model/cloth_model.h"
 
@@ -19,7 +20,7 @@ struct SpringAxis {
   Vec3 direction;  ///< direction from b to a, unit or zero
 };
 
-inline SpringAxis spring_axis(const Spring& spring, const Eigen::Ref<const Positions>& positions) {
+inline SpringAxis spring_axis(const Spring& spring, const PositionsView& positions) {
   const Vec3 d = positions.col(spring.a) - positions.col(spring.b);
   const double length = d.norm();
   return {length, length > 0 ? Vec3(d / length) : Vec3(Vec3::Zero())};
@@ -79,8 +80,7 @@ struct ElementKind {
   explicit ElementKind(const ClothModel& model) : model_(model) {}
 
   void check() const {}
-  void add_damping_forces(const Eigen::Ref<const Positions>&, const Eigen::Ref<const Positions>&,
-                          const Eigen::Ref<Positions>&) const {}
+  void add_damping_forces(const PositionsView&, const PositionsView&, const PositionsRef&) const {}
 
  protected:
   /// join(a, b) for all pairs of an element's vertices.
@@ -115,16 +115,14 @@ struct SpringElements : ElementKind {
   void for_each_pair(Join&& join) const {
     for (const Spring& spring : model_.springs) join(spring.a, spring.b);
   }
-  void add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const;
-  void add_forces(const Eigen::Ref<const Positions>& positions, Eigen::Ref<Positions> forces) const;
-  void add_damping_forces(const Eigen::Ref<const Positions>& positions,
-                          const Eigen::Ref<const Positions>& velocities,
-                          Eigen::Ref<Positions> forces) const;
-  void add_internal_forces(const Eigen::Ref<const Positions>& positions,
-                           const Eigen::Ref<const Positions>& velocities,
-                           Eigen::Ref<Positions> forces) const;
+  void add_energy(const PositionsView& positions, double& energy) const;
+  void add_forces(const PositionsView& positions, PositionsRef forces) const;
+  void add_damping_forces(const PositionsView& positions, const PositionsView& velocities,
+                          PositionsRef forces) const;
+  void add_internal_forces(const PositionsView& positions, const PositionsView& velocities,
+                           PositionsRef forces) const;
   template <class Blocks>
-  void add_to_matrix(const Eigen::Ref<const Positions>& positions, const MatrixShares& shares,
+  void add_to_matrix(const PositionsView& positions, const MatrixShares& shares,
                      Blocks& blocks) const {
     for (const Spring& spring : model_.springs) {
       const SpringAxis axis = spring_axis(spring, positions);
@@ -151,10 +149,10 @@ struct TautSpringElements : ElementKind {
   void for_each_pair(Join&& join) const {
     for (const Spring& spring : model_.taut_springs) join(spring.a, spring.b);
   }
-  void add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const;
-  void add_forces(const Eigen::Ref<const Positions>& positions, Eigen::Ref<Positions> forces) const;
+  void add_energy(const PositionsView& positions, double& energy) const;
+  void add_forces(const PositionsView& positions, PositionsRef forces) const;
   template <class Blocks>
-  void add_to_matrix(const Eigen::Ref<const Positions>& positions, const MatrixShares& shares,
+  void add_to_matrix(const PositionsView& positions, const MatrixShares& shares,
                      Blocks& blocks) const {
     for (const Spring& spring : model_.taut_springs) {
       const SpringAxis axis = spring_axis(spring, positions);
@@ -183,11 +181,10 @@ struct BendElements : ElementKind {
   void for_each_pair(Join&& join) const {
     for (const BendElement& bend : model_.bends) join_all(bend.vertices, join);
   }
-  void add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const;
-  void add_forces(const Eigen::Ref<const Positions>& positions, Eigen::Ref<Positions> forces) const;
+  void add_energy(const PositionsView& positions, double& energy) const;
+  void add_forces(const PositionsView& positions, PositionsRef forces) const;
   template <class Blocks>
-  void add_to_matrix(const Eigen::Ref<const Positions>&, const MatrixShares& shares,
-                     Blocks& blocks) const {
+  void add_to_matrix(const PositionsView&, const MatrixShares& shares, Blocks& blocks) const {
     for (const BendElement& bend : model_.bends) {
       const auto& w = bend.weights;
       const double s = shares.stiffness * bend.stiffness;
@@ -213,10 +210,14 @@ struct ChordElements : ElementKind {
   void for_each_pair(Join&& join) const {
     for (const ChordBend& bend : model_.chord_bends) join(bend.a, bend.b);
   }
-  void add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const;
-  void add_forces(const Eigen::Ref<const Positions>& positions, Eigen::Ref<Positions> forces) const;
+  void add_energy(const PositionsView& positions, double& energy) const {
+    energy += chord_energy(model_.chord_bends, positions);
+  }
+  void add_forces(const PositionsView& positions, PositionsRef forces) const {
+    add_chord_forces(model_.chord_bends, positions, forces);
+  }
   template <class Blocks>
-  void add_to_matrix(const Eigen::Ref<const Positions>& positions, const MatrixShares& shares,
+  void add_to_matrix(const PositionsView& positions, const MatrixShares& shares,
                      Blocks& blocks) const {
     for (const ChordBend& bend : model_.chord_bends)
       blocks.add_difference(bend.a, bend.b,
@@ -240,18 +241,22 @@ struct BendFrictionElements : ElementKind {
     for (const BendFriction::Element& element : model_.bend_friction->elements())
       join_all(element.bend.vertices, join);
   }
-  void add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const;
-  void add_forces(const Eigen::Ref<const Positions>& positions, Eigen::Ref<Positions> forces) const;
+  void add_energy(const PositionsView& positions, double& energy) const {
+    if (!empty()) energy += model_.bend_friction->energy(positions);
+  }
+  void add_forces(const PositionsView& positions, PositionsRef forces) const {
+    if (!empty()) model_.bend_friction->add_forces(positions, forces);
+  }
   template <class Blocks>
-  void add_to_matrix(const Eigen::Ref<const Positions>& positions, const MatrixShares& shares,
+  void add_to_matrix(const PositionsView& positions, const MatrixShares& shares,
                      Blocks& blocks) const {
     if (empty()) return;
     for (const BendFriction::Element& element : model_.bend_friction->elements()) {
       const double s = shares.stiffness * model_.bend_friction->tangent(element, positions);
-      Eigen::Matrix<double, 9, 1> slope;  // derivative of the curvature
+      Vec9 slope;  // derivative of the curvature
       for (int k = 0; k < 3; ++k)
         slope.segment<3>(3 * k) = element.bend.weights[k] * element.normal;
-      const Eigen::Matrix<double, 9, 9> block = s * slope * slope.transpose();
+      const Mat9 block = s * slope * slope.transpose();
       blocks.add_element(element.bend.vertices, block);
     }
   }
@@ -263,7 +268,9 @@ struct MembraneElements : ElementKind {
   using ElementKind::ElementKind;
 
   bool empty() const { return model_.membrane.elements.empty(); }
-  void check() const;
+  void check() const {
+    PLEAT_CHECK(model_.membrane_relaxation >= 0, "a relaxation time is not negative");
+  }
   template <class Note>
   void for_each_part(Note&& note) const {
     note(!empty(), "membrane", bytes_of(model_.membrane.elements));
@@ -275,19 +282,21 @@ struct MembraneElements : ElementKind {
     for (const MembraneElement& element : model_.membrane.elements)
       join_all(element.vertices, join);
   }
-  void add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const;
-  void add_forces(const Eigen::Ref<const Positions>& positions, Eigen::Ref<Positions> forces) const;
-  void add_damping_forces(const Eigen::Ref<const Positions>& positions,
-                          const Eigen::Ref<const Positions>& velocities,
-                          Eigen::Ref<Positions> forces) const;
+  void add_energy(const PositionsView& positions, double& energy) const {
+    energy += membrane_energy(model_.membrane, positions);
+  }
+  void add_forces(const PositionsView& positions, PositionsRef forces) const {
+    add_membrane_forces(model_.membrane, positions, forces);
+  }
+  void add_damping_forces(const PositionsView& positions, const PositionsView& velocities,
+                          PositionsRef forces) const;
   template <class Blocks>
-  void add_to_matrix(const Eigen::Ref<const Positions>& positions, const MatrixShares& shares,
+  void add_to_matrix(const PositionsView& positions, const MatrixShares& shares,
                      Blocks& blocks) const {
     const MembraneLaw& law = model_.membrane.law;
     const double viscosity_share = shares.damping * model_.membrane_relaxation;
     for (const MembraneElement& element : model_.membrane.elements) {
-      Eigen::Matrix<double, 9, 9> block =
-          shares.stiffness * membrane_stiffness(law, element, positions, shares.hessian);
+      Mat9 block = shares.stiffness * membrane_stiffness(law, element, positions, shares.hessian);
       if (viscosity_share > 0)
         block += viscosity_share * membrane_viscosity(law, element, positions);
       blocks.add_element(element.vertices, block);
@@ -309,10 +318,14 @@ struct HingeElements : ElementKind {
   void for_each_pair(Join&& join) const {
     for (const Hinge& hinge : model_.hinges) join_all(hinge.vertices, join);
   }
-  void add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const;
-  void add_forces(const Eigen::Ref<const Positions>& positions, Eigen::Ref<Positions> forces) const;
+  void add_energy(const PositionsView& positions, double& energy) const {
+    energy += hinge_energy(model_.hinges, positions);
+  }
+  void add_forces(const PositionsView& positions, PositionsRef forces) const {
+    add_hinge_forces(model_.hinges, positions, forces);
+  }
   template <class Blocks>
-  void add_to_matrix(const Eigen::Ref<const Positions>& positions, const MatrixShares& shares,
+  void add_to_matrix(const PositionsView& positions, const MatrixShares& shares,
                      Blocks& blocks) const {
     for (const Hinge& hinge : model_.hinges)
       blocks.add_element(hinge.vertices,
@@ -341,11 +354,10 @@ struct FittedBendingElements : ElementKind {
       for (SparseMatrix::InnerIterator entry(bending, column); entry; ++entry)
         if (entry.row() > column) join(VertexId(entry.row()), VertexId(column));
   }
-  void add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const;
-  void add_forces(const Eigen::Ref<const Positions>& positions, Eigen::Ref<Positions> forces) const;
+  void add_energy(const PositionsView& positions, double& energy) const;
+  void add_forces(const PositionsView& positions, PositionsRef forces) const;
   template <class Blocks>
-  void add_to_matrix(const Eigen::Ref<const Positions>&, const MatrixShares& shares,
-                     Blocks& blocks) const {
+  void add_to_matrix(const PositionsView&, const MatrixShares& shares, Blocks& blocks) const {
     const SparseMatrix& bending = model_.fitted_bending;
     for (int column = 0; column < bending.outerSize(); ++column) {
       for (SparseMatrix::InnerIterator entry(bending, column); entry; ++entry) {

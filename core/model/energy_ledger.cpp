@@ -1,7 +1,6 @@
 #include "core/model/energy_ledger.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/base/check.h"
 #include "core/model/hanging_vertices.h"
@@ -36,10 +35,6 @@ void EnergyLedger::take_vertices() {
   is_pinned_.resize(static_cast<std::size_t>(model_.n_vertices()));
   for (Loads* loads : {&begin_, &end_}) loads->forces.resize(3, model_.n_vertices());
   part_.resize(3, model_.n_vertices());
-}
-
-double EnergyLedger::friction_loss() const {
-  return model_.bend_friction ? model_.bend_friction->dissipated() : 0;
 }
 
 /// Replaces the moments of the end, which the model has, by those of the start.
@@ -96,7 +91,7 @@ Vec3 EnergyLedger::missing_impulse(VertexId vertex, const State& begin, const St
 
 void EnergyLedger::record_contact(const State& begin, const State& end, double time_end,
                                   double step) {
-  for (const ContactStage::Support& support : model_.contact->supports(end.positions, time_end)) {
+  for (const ContactPass::Support& support : model_.contact->supports(end.positions, time_end)) {
     const VertexId v = support.vertex;
     if (is_pinned_[v]) continue;
     const Vec3 impulse =
@@ -131,9 +126,5 @@ void EnergyLedger::record(const State& begin, const State& end, double time_end,
 }
 
 double EnergyLedger::drift() const { return parts_.sum() - first_parts_.sum() - works_.sum(); }
-
-double EnergyLedger::relative_drift() const {
-  return largest_kinetic_energy_ > 0 ? std::abs(drift()) / largest_kinetic_energy_ : 0;
-}
 
 }  // namespace pleat

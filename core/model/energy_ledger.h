@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "core/model/cloth_model.h"
@@ -8,13 +9,12 @@
 
 namespace pleat {
 
-/// Accounts for the energy of a moving cloth from the states before and after each step alone: it
-/// shares nothing with the steppers but the laws of force. Energy that no force explains is the
-/// method's own gain or loss.
+/// Accounts for the energy of a moving cloth from the states before and after each step alone:
+/// energy that no force explains is the method's own gain or loss.
 ///
 /// The powers of damping, air, pins and contact are integrated by the trapezoid rule over each
-/// step, so that for a consistent method the drift over a fixed time falls at least in proportion
-/// to the step, except where motion jumps.
+/// step, so that a consistent method's drift falls at least in proportion to the step, except where
+/// motion jumps.
 class EnergyLedger {
  public:
   /// Works done on the cloth since the start [J].
@@ -46,7 +46,9 @@ class EnergyLedger {
   const EnergyParts& first_parts() const { return first_parts_; }
   double drift() const;  ///< change of the energy minus the works [J]
   /// |drift| over the largest kinetic energy seen, 0 while nothing moved.
-  double relative_drift() const;
+  double relative_drift() const {
+    return largest_kinetic_energy_ > 0 ? std::abs(drift()) / largest_kinetic_energy_ : 0;
+  }
 
  private:
   /// Forces of springs, dampers, weight and air [N], and the powers of the last but one and of air
@@ -58,7 +60,9 @@ class EnergyLedger {
   };
 
   void take_vertices();
-  double friction_loss() const;
+  double friction_loss() const {
+    return model_.bend_friction ? model_.bend_friction->dissipated() : 0;
+  }
   void exchange_friction(const State& begin);
   void evaluate(const State& state, double time, Loads& loads);
   Vec3 missing_impulse(VertexId vertex, const State& begin, const State& end, double step) const;

@@ -12,7 +12,7 @@ constexpr double kStraight = 0.7071;  // the cosine of 45 degrees
 /// Takes edges out of a cloth, line by line.
 class LineFinder {
  public:
-  LineFinder(const std::vector<GaugeEdge>& edges, const Eigen::Ref<const Positions>& positions)
+  LineFinder(const std::vector<GaugeEdge>& edges, const PositionsView& positions)
       : edges_(edges),
         positions_(positions),
         is_taken_(edges.size(), char{0}),
@@ -63,7 +63,7 @@ class LineFinder {
   }
 
   const std::vector<GaugeEdge>& edges_;
-  const Eigen::Ref<const Positions>& positions_;
+  const PositionsView& positions_;
   std::vector<char> is_taken_;
   std::vector<std::vector<std::size_t>> around_;  // the edges at each vertex
 };
@@ -71,7 +71,7 @@ class LineFinder {
 }  // namespace
 
 std::vector<GaugeEdge> in_lines(const std::vector<GaugeEdge>& edges,
-                                const Eigen::Ref<const Positions>& rest_positions) {
+                                const PositionsView& rest_positions) {
   LineFinder finder(edges, rest_positions);
   std::vector<GaugeEdge> ordered;
   for (std::size_t e = 0; e < edges.size(); ++e) {

@@ -30,11 +30,9 @@ struct StrainLimit {
   std::vector<GaugeEdge> edges;
 };
 
-/// The edges in the order of lines: an edge is followed by that which goes on most nearly straight
-/// from its end, within 45 degrees, and is in no line yet.
-///
-/// rest_positions  [m]
+/// The edges in the order of lines: an edge is followed by that which at rest goes on most nearly
+/// straight from its end, within 45 degrees, and is in no line yet.
 std::vector<GaugeEdge> in_lines(const std::vector<GaugeEdge>& edges,
-                                const Eigen::Ref<const Positions>& rest_positions);
+                                const PositionsView& rest_positions);
 
 }  // namespace pleat

@@ -8,7 +8,7 @@
 
 namespace pleat {
 
-double strain(const GaugeEdge& edge, const Eigen::Ref<const Positions>& positions) {
+double strain(const GaugeEdge& edge, const PositionsView& positions) {
   return (positions.col(edge.a) - positions.col(edge.b)).norm() / edge.rest_length - 1;
 }
 
@@ -36,7 +36,7 @@ std::vector<GaugeEdge> gauge_edges(std::span<const Spring> springs) {
   return edges;
 }
 
-Stretch stretch(std::span<const GaugeEdge> gauge, const Eigen::Ref<const Positions>& positions) {
+Stretch stretch(std::span<const GaugeEdge> gauge, const PositionsView& positions) {
   if (gauge.empty()) return {};
   double sum = 0;
   double largest = 0;
@@ -59,7 +59,7 @@ StrainMap::StrainMap(std::span<const GaugeEdge> gauge, int n_vertices)
   for (float& count : inverse_counts_) count = count > 0 ? 1 / count : 0;
 }
 
-const std::vector<float>& StrainMap::update(const Eigen::Ref<const Positions>& positions) {
+const std::vector<float>& StrainMap::update(const PositionsView& positions) {
   PLEAT_CHECK(static_cast<std::size_t>(positions.cols()) == strains_.size(),
               "a strain map keeps its number of vertices");
   std::fill(strains_.begin(), strains_.end(), 0.0F);

@@ -25,7 +25,7 @@ std::vector<GaugeEdge> gauge_edges(const TriangleMesh& mesh);
 std::vector<GaugeEdge> gauge_edges(std::span<const Spring> springs);
 
 /// l/L - 1.
-double strain(const GaugeEdge& edge, const Eigen::Ref<const Positions>& positions);
+double strain(const GaugeEdge& edge, const PositionsView& positions);
 
 /// |l/L - 1| over the edges of a gauge; 0 without any.
 struct Stretch {
@@ -33,7 +33,7 @@ struct Stretch {
   double largest = 0;
 };
 
-Stretch stretch(std::span<const GaugeEdge> gauge, const Eigen::Ref<const Positions>& positions);
+Stretch stretch(std::span<const GaugeEdge> gauge, const PositionsView& positions);
 
 /// The signed mean l/L - 1 of a gauge's edges at each vertex, for colouring.
 class StrainMap {
@@ -43,7 +43,7 @@ class StrainMap {
   /// positions  [m]
   /// Returns one number per vertex, 0 where no edge ends; valid until the next call. Never
   /// allocates.
-  const std::vector<float>& update(const Eigen::Ref<const Positions>& positions);
+  const std::vector<float>& update(const PositionsView& positions);
 
  private:
   std::vector<GaugeEdge> gauge_;

@@ -191,8 +191,6 @@ class SystemMatrix::Blocks {
   const Slot* next_;
 };
 
-void SystemMatrix::set_zero() { matrix_.coeffs().setZero(); }
-
 void SystemMatrix::set_values(const SparseMatrix& lower) {
   PLEAT_CHECK(lower.nonZeros() == matrix_.nonZeros(), "values come with the same pattern");
   matrix_.coeffs() = lower.coeffs();
@@ -203,9 +201,8 @@ void SystemMatrix::add_masses(double factor) {
     add_to_diagonal(VertexId(j), factor * model_.masses[j]);
 }
 
-void SystemMatrix::add_elasticity(const Eigen::Ref<const Positions>& positions,
-                                  double stiffness_factor, double damping_factor,
-                                  ElementHessian hessian) {
+void SystemMatrix::add_elasticity(const PositionsView& positions, double stiffness_factor,
+                                  double damping_factor, ElementHessian hessian) {
   Blocks blocks(*this);
   const MatrixShares shares{stiffness_factor, damping_factor, hessian};
   for_each_element_kind(model_,
@@ -250,8 +247,7 @@ void SystemMatrix::choose_prescribed(const std::vector<VertexId>& vertices) {
   }
 }
 
-void SystemMatrix::prescribe(const Eigen::Ref<const Positions>& values,
-                             Eigen::Ref<Eigen::VectorXd> rhs) {
+void SystemMatrix::prescribe(const PositionsView& values, Eigen::Ref<Eigen::VectorXd> rhs) {
   PLEAT_CHECK(values.cols() == static_cast<Eigen::Index>(prescribed_.size()),
               "one value per prescribed vertex");
   for (const PrescribedBlock& entry : prescribed_blocks_) {
@@ -276,7 +272,7 @@ void SystemMatrix::prescribe(const Eigen::Ref<const Positions>& values,
   }
 }
 
-SparseMatrix stiffness_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions,
+SparseMatrix stiffness_matrix(const ClothModel& model, const PositionsView& positions,
                               ElementHessian hessian) {
   SystemMatrix matrix(model);
   matrix.add_elasticity(positions, 1, 0, hessian);

@@ -16,14 +16,14 @@ class SystemMatrix {
   /// model  outlives the matrix and keeps its elements.
   explicit SystemMatrix(const ClothModel& model);
 
-  void set_zero();
+  void set_zero() { matrix_.coeffs().setZero(); }
   /// Takes the values of a matrix with the same pattern.
   void set_values(const SparseMatrix& lower);
   /// Adds factor * m to the diagonal of each vertex.
   void add_masses(double factor);
   /// Adds stiffness_factor * K + damping_factor * C at these positions: K = -d(elastic force)/dx
   /// [N/m], C = -d(damping force)/dv [N s/m].
-  void add_elasticity(const Eigen::Ref<const Positions>& positions, double stiffness_factor,
+  void add_elasticity(const PositionsView& positions, double stiffness_factor,
                       double damping_factor, ElementHessian hessian);
   /// The trace of a vertex's block on the diagonal.
   double diagonal_trace(VertexId vertex) const;
@@ -43,7 +43,7 @@ class SystemMatrix {
   /// `prescribe` after each assembly.
   void choose_prescribed(const std::vector<VertexId>& vertices);
   /// values  one column per chosen vertex, in order; rhs  3n.
-  void prescribe(const Eigen::Ref<const Positions>& values, Eigen::Ref<Eigen::VectorXd> rhs);
+  void prescribe(const PositionsView& values, Eigen::Ref<Eigen::VectorXd> rhs);
 
  private:
   /// The place of the block (row, column), row > column: it is the `rank`th below the diagonal of
@@ -93,7 +93,7 @@ class SystemMatrix {
 };
 
 /// K = -d(elastic force)/dx at these positions, lower triangle, 3n x 3n [N/m].
-SparseMatrix stiffness_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions,
+SparseMatrix stiffness_matrix(const ClothModel& model, const PositionsView& positions,
                               ElementHessian hessian);
 
 /// M, lumped, 3n x 3n [kg].

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <cstdio>
 #include <cstring>
 
 #include "core/base/check.h"
-#include "core/files/json_reader.h"
+#include "core/base/formatted.h"
 #include "core/scene/format/scene_file.h"
 
 namespace pleat {
@@ -103,12 +101,8 @@ std::string step_phrase(double step) {
   constexpr double kRounding = 1e-9;  // relative; what 1/n written in 15 digits has
   const double per_second = 1 / step;
   const bool is_whole_part = std::abs(std::round(per_second) - per_second) < kRounding * per_second;
-  char text[32];
-  if (is_whole_part && per_second > 0.5)
-    std::snprintf(text, sizeof text, "1/%.0f s", per_second);
-  else
-    std::snprintf(text, sizeof text, "%.3g s", step);
-  return text;
+  return is_whole_part && per_second > 0.5 ? formatted("1/%.0f s", per_second)
+                                           : formatted("%.3g s", step);
 }
 
 void thin(Reference& reference, std::int64_t n_vertices) {
@@ -130,10 +124,6 @@ std::optional<Reference> MemoryReferenceStore::find(const std::string& id) {
   const auto place = references_.find(id);
   if (place == references_.end()) return std::nullopt;
   return place->second;
-}
-
-void MemoryReferenceStore::keep(const Reference& reference) {
-  references_[reference.label.id] = reference;
 }
 
 std::string write_reference(const Reference& reference, Precision precision) {

@@ -67,7 +67,7 @@ class ReferenceStore {
 class MemoryReferenceStore : public ReferenceStore {
  public:
   std::optional<Reference> find(const std::string& id) override;
-  void keep(const Reference& reference) override;
+  void keep(const Reference& reference) override { references_[reference.label.id] = reference; }
 
  private:
   std::map<std::string, Reference> references_;

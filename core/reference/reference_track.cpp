@@ -5,7 +5,6 @@
 
 #include "core/base/check.h"
 #include "core/run/carry_over.h"
-#include "core/scene/format/scene_file.h"
 
 namespace pleat {
 namespace {

@@ -9,9 +9,8 @@ namespace pleat {
 /// A planar chain of rigid links that hangs from a fixed point: the limit of an inextensible limp
 /// cloth strip.
 ///
-/// The angles of the links from straight down are its coordinates, so that lengths hold exactly.
-/// The pull in each link follows from a tridiagonal system at every evaluation; the angles are
-/// integrated by the classical Runge-Kutta method of order 4. It shares no code with the steppers.
+/// The angles of the links from straight down are its coordinates, so that lengths hold exactly;
+/// they are integrated by the classical Runge-Kutta method. It shares no code with the steppers.
 class RigidChain {
  public:
   /// lengths  of the links, from the fixed end [m], positive

@@ -11,7 +11,7 @@ BendFeatureSum::BendFeatureSum(const QuadMesh& mesh)
       mean_(Eigen::VectorXd::Zero(mesh.n_vertices())),
       squares_(Eigen::VectorXd::Zero(mesh.n_vertices())) {}
 
-void BendFeatureSum::add(const Eigen::Ref<const Positions>& positions) {
+void BendFeatureSum::add(const PositionsView& positions) {
   const std::string frame = "frame " + std::to_string(n_frames_);
   if (positions.cols() != mean_.size())
     throw InputError(frame, "expected " + std::to_string(mean_.size()) +

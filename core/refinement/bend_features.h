@@ -8,17 +8,15 @@ namespace pleat {
 /// column per vertex.
 using BendFeatures = Eigen::Matrix<double, 2, Eigen::Dynamic>;
 
-/// Gathers the features of a motion frame by frame, without keeping the frames.
-///
-/// Source: Welford, Note on a method for calculating corrected sums of squares and products,
-/// Technometrics 4(3), 1962.
+/// Gathers the features of a motion, without keeping its frames. Source: Welford, Note on a method
+/// for calculating corrected sums of squares and products, Technometrics 4(3), 1962.
 class BendFeatureSum {
  public:
   explicit BendFeatureSum(const QuadMesh& mesh);
 
   /// positions  [m]. Throws InputError naming the frame (counted from 0) when it has another number
   /// of vertices than the mesh or one is not finite.
-  void add(const Eigen::Ref<const Positions>& positions);
+  void add(const PositionsView& positions);
 
   int n_frames() const { return n_frames_; }
 

@@ -11,9 +11,8 @@ struct PatternOptions {
   int n_patterns = 3;      ///< 1 to kMaxPatterns
   bool normalised = true;  ///< both components count alike, however strongly the fabric bends
   std::uint64_t seed = 1;
-  /// Runs of k-means, at least 1; the best counts. Where one run finds the best clusters with
-  /// probability p, all miss them with (1 - p)^n_runs: 16 runs miss with 61 % where p is 3 %, as
-  /// for hard features.
+  /// Runs of k-means, at least 1; the best counts. Where one finds the best clusters with
+  /// probability p, all miss them with (1 - p)^n_runs.
   int n_runs = 16;
 
   /// Throws InputError naming the value out of range.

@@ -1,6 +1,5 @@
 #include "core/refinement/face_losses.h"
 
-#include <algorithm>
 #include <array>
 
 #include "core/base/check.h"
@@ -50,7 +49,7 @@ FaceLossSum::FaceLossSum(const QuadMesh& fine)
 // middle of the edge to the corner that hangs there, and h that corner's bilinear hat, the drawn
 // patch is d h behind: the error becomes e + d h. Its mean square needs the means of e^2, h e and
 // h^2 alone. By the trapezoid rule a vertex counts with the parts of the cells around it.
-void FaceLossSum::add(const Eigen::Ref<const Positions>& positions) {
+void FaceLossSum::add(const PositionsView& positions) {
   PLEAT_CHECK(positions.cols() == fine_.n_vertices(), "one position per vertex");
   ++n_frames_;
   for (std::size_t f = 0; f < grids_.size(); ++f) {
@@ -100,7 +99,5 @@ void FaceLossSum::add(const Eigen::Ref<const Positions>& positions) {
     }
   }
 }
-
-FaceLosses FaceLossSum::losses() const { return sums_ / std::max(1, n_frames_); }
 
 }  // namespace pleat

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/mesh/quad_mesh.h"
@@ -23,12 +24,12 @@ class FaceLossSum {
   explicit FaceLossSum(const QuadMesh& fine);
 
   /// positions  one column per vertex [m]; ContractError for another number
-  void add(const Eigen::Ref<const Positions>& positions);
+  void add(const PositionsView& positions);
 
   int n_frames() const { return n_frames_; }
 
   /// Means over the frames so far; zero without any.
-  FaceLosses losses() const;
+  FaceLosses losses() const { return sums_ / std::max(1, n_frames_); }
 
  private:
   QuadMesh fine_;

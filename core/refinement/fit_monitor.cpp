@@ -24,7 +24,7 @@ FaceCurvature::FaceCurvature(const QuadMesh& mesh)
     if (face.active()) corners_.push_back(face.corners);
 }
 
-Eigen::VectorXd FaceCurvature::of(const Eigen::Ref<const Positions>& positions) const {
+Eigen::VectorXd FaceCurvature::of(const PositionsView& positions) const {
   const Eigen::VectorXd at_vertices = vertices_.of(positions);
   Eigen::VectorXd curvature(n_faces());
   for (Eigen::Index f = 0; f < curvature.size(); ++f) {
@@ -35,8 +35,7 @@ Eigen::VectorXd FaceCurvature::of(const Eigen::Ref<const Positions>& positions) 
   return curvature;
 }
 
-Eigen::VectorXd FaceCurvature::largest_around(
-    const Eigen::Ref<const Eigen::VectorXd>& values) const {
+Eigen::VectorXd FaceCurvature::largest_around(const VectorView& values) const {
   Eigen::VectorXd at_vertices = Eigen::VectorXd::Zero(n_vertices_);
   for (Eigen::Index f = 0; f < values.size(); ++f)
     for (const VertexId v : corners_[static_cast<std::size_t>(f)])
@@ -50,10 +49,6 @@ Eigen::VectorXd FaceCurvature::largest_around(
 
 ExampleEnvelope::ExampleEnvelope(const QuadMesh& mesh, const QuadMesh& fine)
     : sample_(mesh, fine), curvature_(mesh) {}
-
-void ExampleEnvelope::add(const Eigen::Ref<const Positions>& fine_positions) {
-  seen_.push_back(curvature_.of(sample_.of(fine_positions)));
-}
 
 std::vector<double> ExampleEnvelope::limits() const {
   constexpr double kPart = 0.995;
@@ -80,7 +75,7 @@ FitMonitor::FitMonitor(const QuadMesh& mesh, const RefinementPlan& plan) : curva
   limits_ = Eigen::Map<const Eigen::VectorXd>(plan.curvature_limits.data(), n_limits);
 }
 
-FitReport FitMonitor::look(const Eigen::Ref<const Positions>& positions) {
+FitReport FitMonitor::add_frame(const PositionsView& positions) {
   const auto n_outside = (curvature_.of(positions).array() > limits_.array()).count();
   report_.share = static_cast<double>(n_outside) / static_cast<double>(limits_.size());
   report_.worst_share = std::max(report_.worst_share, report_.share);

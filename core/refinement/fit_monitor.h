@@ -15,11 +15,11 @@ class FaceCurvature {
  public:
   explicit FaceCurvature(const QuadMesh& mesh);
 
-  Eigen::VectorXd of(const Eigen::Ref<const Positions>& positions) const;
+  Eigen::VectorXd of(const PositionsView& positions) const;
   Eigen::Index n_faces() const { return static_cast<Eigen::Index>(corners_.size()); }
 
   /// Maximum over a face and those that touch it, from one value per face.
-  Eigen::VectorXd largest_around(const Eigen::Ref<const Eigen::VectorXd>& values) const;
+  Eigen::VectorXd largest_around(const VectorView& values) const;
 
  private:
   VertexCurvature vertices_;
@@ -35,7 +35,9 @@ class ExampleEnvelope {
   ExampleEnvelope(const QuadMesh& mesh, const QuadMesh& fine);
 
   /// A frame of an example: the fine mesh's positions [m].
-  void add(const Eigen::Ref<const Positions>& fine_positions);
+  void add(const PositionsView& fine_positions) {
+    seen_.push_back(curvature_.of(sample_.of(fine_positions)));
+  }
 
   /// One value per active face, up to the next hundredth: the largest curvature of a face that is
   /// no more than two away from it, of which it exceeds that in one frame of 200 [1/m]. Folds come
@@ -69,7 +71,7 @@ class FitMonitor {
   FitMonitor(const QuadMesh& mesh, const RefinementPlan& plan);
 
   /// The next frame: positions on the plan's mesh [m].
-  FitReport look(const Eigen::Ref<const Positions>& positions);
+  FitReport add_frame(const PositionsView& positions);
 
  private:
   FaceCurvature curvature_;

@@ -1,6 +1,5 @@
 #include "core/refinement/k_means.h"
 
-#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>

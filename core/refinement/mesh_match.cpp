@@ -94,7 +94,7 @@ void straighten(std::span<const HangingVertex> hanging, Positions& columns) {
     columns.col(h.vertex) = (columns.col(h.parents[0]) + columns.col(h.parents[1])) / 2;
 }
 
-Positions MeshSample::of(const Eigen::Ref<const Positions>& finer_columns) const {
+Positions MeshSample::of(const PositionsView& finer_columns) const {
   Positions columns(3, static_cast<Eigen::Index>(vertices_.size()));
   for (std::size_t v = 0; v < vertices_.size(); ++v)
     columns.col(static_cast<Eigen::Index>(v)) = finer_columns.col(vertices_[v]);

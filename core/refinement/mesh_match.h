@@ -40,7 +40,7 @@ class MeshSample {
       : vertices_(matching_vertices(mesh, finer)), hanging_(mesh.hanging_vertices()) {}
 
   /// The finer mesh's columns at this one's vertices, hanging ones in the middle of their parents.
-  Positions of(const Eigen::Ref<const Positions>& finer_columns) const;
+  Positions of(const PositionsView& finer_columns) const;
 
  private:
   std::vector<VertexId> vertices_;

@@ -32,7 +32,7 @@ constexpr double kLargestLossEnd = 0.1;
 struct PlanOptions {
   PlanCriterion criterion = PlanCriterion::shape;
   /// Allowed loss of `shape`, root mean square over the cloth and the frames of any example [m].
-  /// From 0, which splits all, to below kLargestLossEnd.
+  /// Range from 0, which splits all, to below kLargestLossEnd.
   double largest_loss = 0.002;
   /// Threshold of `curvature`: a face is split where the demands of its corners sum to more; lower,
   /// more vertices. From 0 to below 4 (number of patterns - 1).
@@ -42,9 +42,8 @@ struct PlanOptions {
   std::optional<int> level_cap;  ///< finest level; else that of the fine mesh, which is the most
 };
 
-/// Throws InputError naming the demand, vertex budget or level cap that is out of range.
-///
-/// max_level  of the fine mesh
+/// Throws InputError naming the demand, vertex budget or level cap that is out of range;
+/// `max_level` is the fine mesh's.
 void check_plan_options(const PlanOptions& options, int n_patterns, const QuadMesh& base,
                         int max_level);
 

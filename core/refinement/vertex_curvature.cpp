@@ -73,7 +73,7 @@ VertexCurvature::VertexCurvature(const QuadMesh& mesh) : hanging_(mesh.hanging_v
   shares_ = (shares_.array() > 0).select(shares_.cwiseInverse(), 0);
 }
 
-Eigen::VectorXd VertexCurvature::of(const Eigen::Ref<const Positions>& positions) const {
+Eigen::VectorXd VertexCurvature::of(const PositionsView& positions) const {
   PLEAT_CHECK(positions.cols() == shares_.size(), "one position per vertex");
   Eigen::VectorXd curvature = Eigen::VectorXd::Zero(shares_.size());
   for (const Arc& arc : arcs_) {

@@ -25,7 +25,7 @@ class VertexCurvature {
   explicit VertexCurvature(const QuadMesh& mesh);
 
   /// positions  one column per vertex [m]; ContractError for another number.
-  Eigen::VectorXd of(const Eigen::Ref<const Positions>& positions) const;
+  Eigen::VectorXd of(const PositionsView& positions) const;
 
   int n_vertices() const { return static_cast<int>(shares_.size()); }
 

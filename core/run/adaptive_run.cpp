@@ -52,11 +52,7 @@ SolveReport AdaptiveRun::step() {
   return report;
 }
 
-void AdaptiveRun::set_options(const DynamicOptions& options) {
-  refinement_ = DynamicRefinement(base_, options);
-}
-
-void AdaptiveRun::observe(StageObserver* observer) {
+void AdaptiveRun::observe(PartObserver* observer) {
   observer_ = observer;
   stepper_->observe(observer);
 }

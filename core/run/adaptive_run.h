@@ -26,14 +26,16 @@ class AdaptiveRun final : public MovingCloth {
   SolveReport step() override;
 
   /// Sets the options of later changes of the mesh.
-  void set_options(const DynamicOptions& options);
+  void set_options(const DynamicOptions& options) {
+    refinement_ = DynamicRefinement(base_, options);
+  }
 
   const QuadMesh* mesh() const override { return &*cloth_.quads; }
   const ClothModel& model() const override { return *model_; }
   const State& state() const override { return state_; }
   const std::vector<GaugeEdge>& gauge() const override { return gauge_; }
   double time() const override { return static_cast<double>(n_steps_) * scene_.method.step; }
-  void observe(StageObserver* observer) override;
+  void observe(PartObserver* observer) override;
 
  private:
   void build(RestCloth cloth);
@@ -45,7 +47,7 @@ class AdaptiveRun final : public MovingCloth {
   std::unique_ptr<ClothModel> model_;
   std::vector<GaugeEdge> gauge_;
   std::unique_ptr<Stepper> stepper_;
-  StageObserver* observer_ = nullptr;
+  PartObserver* observer_ = nullptr;
   State state_;
   std::int64_t n_steps_ = 0;
 };

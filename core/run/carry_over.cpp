@@ -176,8 +176,7 @@ Mat3 strain_per_resultant(const MovingSheet& sheet) {
 }
 
 /// First stretch of each new spring [m] on the same mesh: by its own tension, compression included.
-/// Where it is softer per mass, so that it would be stretched further, at most by the largest
-/// resultant both ways.
+/// A sheet softer per mass would be stretched further: at most by the largest resultant both ways.
 std::vector<double> same_stretches(const MovingSheet& old, const MovingSheet& fresh) {
   const double ratio = mass_ratio(old, fresh);
   const double largest = ratio * largest_resultant(old, old.mesh.vertex_areas().sum());

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -13,8 +12,8 @@
 #include "core/dynamics/position_based/spring_law.h"
 #include "core/dynamics/position_based/step_solve.h"
 #include "core/dynamics/stepper_table.h"
+#include "core/run/part_timer.h"
 #include "core/run/simulation.h"
-#include "core/run/stage_timer.h"
 
 namespace pleat {
 namespace {
@@ -45,7 +44,7 @@ constexpr int kRunPart = 0, kRoundsPart = 1, kTimesPart = 2, kParts = 3;
 
 /// So many of a part's pieces are done.
 void tell(const ConvergenceOptions& options, int part, double done, double all) {
-  if (options.hear) options.hear((part + done / all) / kParts);
+  if (options.on_progress) options.on_progress((part + done / all) / kParts);
 }
 
 /// A model with its surface, and the state that the step begins in.
@@ -93,11 +92,11 @@ double rms_distance(const ClothModel& model, const Positions& x, const Positions
 }
 
 /// A method's way to a step's end, from the start with so many rounds.
-class Contestant {
+class StepMethod {
  public:
-  virtual ~Contestant() = default;
+  virtual ~StepMethod() = default;
   virtual void solve(int rounds) = 0;
-  virtual ConvergencePoint look(int rounds) = 0;  // requires a solve before
+  virtual ConvergencePoint point_after(int rounds) = 0;  // requires a solve before
   virtual bool takes_rounds() const = 0;
   virtual bool has_error() const = 0;
 };
@@ -109,14 +108,14 @@ struct Converged {
   double unknown = std::nan("");
 };
 
-class PositionBased final : public Contestant {
+class PositionBased final : public StepMethod {
  public:
   PositionBased(const ClothModel& model, const MethodOptions& method, const PredictedStep& step,
                 const Converged& converged)
       : model_(model), converged_(converged), solve_(model, method, step) {}
 
   void solve(int rounds) override { solve_.solve(rounds); }
-  ConvergencePoint look(int rounds) override {
+  ConvergencePoint point_after(int rounds) override {
     return {
         rounds, rounds * solve_.sweeps_per_round(), 0, solve_.relative_error(),
         rms_distance(model_, solve_.positions(), converged_.positions) / converged_.distance_begin};
@@ -130,7 +129,7 @@ class PositionBased final : public Contestant {
   StepSolve solve_;
 };
 
-class WholeStep final : public Contestant {
+class WholeStep final : public StepMethod {
  public:
   WholeStep(const ClothModel& model, const MethodOptions& method, const State& state, double time,
             const Converged& converged)
@@ -146,7 +145,7 @@ class WholeStep final : public Contestant {
     state_ = begin_;
     stepper_->advance(state_, time_);
   }
-  ConvergencePoint look(int rounds) override {
+  ConvergencePoint point_after(int rounds) override {
     ConvergencePoint point;
     point.rounds = rounds;
     point.relative_distance =
@@ -185,11 +184,12 @@ Converged converged_by_newton(const Begin& begin, const PredictedStep& step) {
 }
 
 /// 1, 2, 3, 5, 9, ..., and before the first of these that reaches a target those that it takes.
-std::vector<ConvergencePoint> points_of(Contestant& contestant, const ConvergenceOptions& options) {
+std::vector<ConvergencePoint> points_of(StepMethod& step_method,
+                                        const ConvergenceOptions& options) {
   std::vector<ConvergencePoint> points;
   const auto measure = [&](int rounds) {
-    contestant.solve(rounds);
-    return contestant.look(rounds);
+    step_method.solve(rounds);
+    return step_method.point_after(rounds);
   };
   const double least = options.targets.empty()
                            ? 0
@@ -199,10 +199,10 @@ std::vector<ConvergencePoint> points_of(Contestant& contestant, const Convergenc
     points.push_back(measure(rounds));
     const bool is_enough =
         points.back().relative_error <= least || watch.elapsed() > options.longest_solve;
-    if (!contestant.takes_rounds() || is_enough) break;
+    if (!step_method.takes_rounds() || is_enough) break;
     more = more == 0 ? 1 : 2 * more;
   }
-  if (!contestant.has_error()) return points;
+  if (!step_method.has_error()) return points;
   for (const double target : options.targets) {
     const auto at = std::find_if(points.begin(), points.end(), [&](const ConvergencePoint& point) {
       return point.relative_error <= target;
@@ -224,12 +224,12 @@ std::vector<ConvergencePoint> points_of(Contestant& contestant, const Convergenc
 }
 
 /// Time of one solve, in a batch of many [ms].
-double timed(Contestant& contestant, int rounds) {
-  contestant.solve(rounds);
+double timed(StepMethod& step_method, int rounds) {
+  step_method.solve(rounds);
   int n = 0;
   const Stopwatch watch;
   do {
-    contestant.solve(rounds);
+    step_method.solve(rounds);
     ++n;
   } while (watch.elapsed() < kBatch);
   return 1e3 * watch.elapsed() / n;
@@ -242,10 +242,10 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// One batch of each number of rounds of each contestant in turn, so that a change of the machine's
-/// speed meets all of them alike.
+/// One batch of each number of rounds of each method in turn, so that a change of the
+/// machine's speed meets all of them alike.
 void add_times(std::vector<ConvergenceSeries>& series,
-               const std::vector<std::unique_ptr<Contestant>>& contestants,
+               const std::vector<std::unique_ptr<StepMethod>>& step_methods,
                const ConvergenceOptions& options) {
   std::vector<std::vector<std::vector<double>>> times(series.size());
   for (std::size_t i = 0; i < series.size(); ++i) times[i].resize(series[i].points.size());
@@ -255,7 +255,7 @@ void add_times(std::vector<ConvergenceSeries>& series,
     for (std::size_t p = 0; p < most; ++p) {
       for (std::size_t i = 0; i < series.size(); ++i)
         if (p < series[i].points.size())
-          times[i][p].push_back(timed(*contestants[i], series[i].points[p].rounds));
+          times[i][p].push_back(timed(*step_methods[i], series[i].points[p].rounds));
       tell(options, kTimesPart, round + static_cast<double>(p + 1) / static_cast<double>(most),
            options.repeat);
     }
@@ -279,7 +279,7 @@ ConvergenceStudy study_convergence(const Scene& scene, const ConvergenceOptions&
   study.n_springs = static_cast<int>(begin.model.springs.size());
   study.n_bends = static_cast<int>(begin.model.bends.size());
   std::optional<Converged> projected, solved;
-  std::vector<std::unique_ptr<Contestant>> contestants;
+  std::vector<std::unique_ptr<StepMethod>> step_methods;
   for (MethodOptions method : options.methods) {
     method.step = h;
     method.substeps = 1;
@@ -290,16 +290,17 @@ ConvergenceStudy study_convergence(const Scene& scene, const ConvergenceOptions&
       converged = is_position_based ? converged_positions(begin, step, options.constraints)
                                     : converged_by_newton(begin, step);
     if (is_position_based)
-      contestants.push_back(std::make_unique<PositionBased>(begin.model, method, step, *converged));
+      step_methods.push_back(
+          std::make_unique<PositionBased>(begin.model, method, step, *converged));
     else
-      contestants.push_back(
+      step_methods.push_back(
           std::make_unique<WholeStep>(begin.model, method, begin.state, begin.time, *converged));
-    study.series.push_back({method, points_of(*contestants.back(), options),
+    study.series.push_back({method, points_of(*step_methods.back(), options),
                             converged->distance_begin, converged->unknown});
-    tell(options, kRoundsPart, static_cast<double>(contestants.size()),
+    tell(options, kRoundsPart, static_cast<double>(step_methods.size()),
          static_cast<double>(options.methods.size()));
   }
-  add_times(study.series, contestants, options);
+  add_times(study.series, step_methods, options);
   return study;
 }
 

@@ -26,8 +26,8 @@ struct ConvergenceOptions {
   double longest_solve = std::numeric_limits<double>::infinity();
   /// Relative errors whose rounds are found, in (0, 1).
   std::vector<double> targets = {1e-1, 1e-2, 1e-3, 1e-4};
-  int repeat = 1;                    ///< timed batches of each number of rounds, methods in turn
-  std::function<void(double)> hear;  ///< told how much of the study is done, 0 to 1
+  int repeat = 1;  ///< timed batches of each number of rounds, methods in turn
+  std::function<void(double)> on_progress;  ///< told how much of the study is done, 0 to 1
 };
 
 /// Measures of a step after so many rounds of a method.

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/base/stage_observer.h"
+#include "core/base/part_observer.h"
 #include "core/linalg/solve_report.h"
 #include "core/mesh/quad_mesh.h"
 #include "core/model/cloth_model.h"
@@ -27,7 +27,7 @@ class MovingCloth {
   virtual const QuadMesh* mesh() const = 0;
   virtual double time() const = 0;  ///< [s]
   /// Null ends it. An observer outlives the steps that it sees.
-  virtual void observe(StageObserver* observer) = 0;
+  virtual void observe(PartObserver* observer) = 0;
 };
 
 }  // namespace pleat

@@ -1,12 +1,9 @@
 #include "core/run/plan_maker.h"
 
-#include <cmath>
 #include <string>
 
-#include "core/base/check.h"
 #include "core/files/json_text.h"
 #include "core/refinement/mesh_match.h"
-#include "core/scene/format/cloth_section.h"
 
 namespace pleat {
 namespace {

@@ -20,7 +20,7 @@ namespace {
 constexpr double kFirstContact = 1e-6;  // [m]
 
 Vec3 normal_at(const Collider& collider, const Vec3& place, double time) {
-  return gap(swept(ContactStage::placed(collider, time), {}, Vec3::Zero()), place).normal;
+  return gap(swept(ContactPass::placed(collider, time), {}, Vec3::Zero()), place).normal;
 }
 
 void check_scene(const Scene& scene) {
@@ -80,8 +80,8 @@ class FrictionWatch {
   }
 
   void end() {
-    const ContactStage& contact = *simulation_.model().contact;
-    for (const ContactStage::Touch& touch : contact.touches()) {
+    const ContactPass& contact = *simulation_.model().contact;
+    for (const ContactPass::Touch& touch : contact.touches()) {
       const Vec3 before = free_.velocities.col(touch.vertex);
       const double friction = contact.colliders()[static_cast<std::size_t>(touch.solid)].friction;
       const Vec3 law = answered(before, touch.normal, friction, response_);
@@ -121,9 +121,9 @@ class TouchedVertices {
       : simulation_(simulation),
         solids_(static_cast<std::size_t>(simulation.model().n_vertices()), kUntouched) {}
 
-  void look(ResponseRun& run) {
-    const ContactStage& contact = *simulation_.model().contact;
-    for (const ContactStage::Touch& touch : contact.touches())
+  void measure(ResponseRun& run) {
+    const ContactPass& contact = *simulation_.model().contact;
+    for (const ContactPass::Touch& touch : contact.touches())
       solids_[static_cast<std::size_t>(touch.vertex)] = touch.solid;
     double sum = 0;
     int n = 0;
@@ -163,30 +163,30 @@ ResponseRun run_from_contact(const Scene& scene, double window, State& at, doubl
   const auto n_window = std::max(1LL, std::llround(window / scene.method.step));
   ResponseRun run;
   std::optional<FrictionWatch> friction;
-  if (!simulation.remembers_contact_forces()) friction.emplace(scene, simulation);
+  if (simulation.stepper().contact_forces().cols() == 0) friction.emplace(scene, simulation);
   TouchedVertices touched(simulation);
   TimedRun timed(simulation, TimedRun::Parts::timed);
   std::int64_t n_left = n_window;
   for (std::int64_t s = 0; s < n_steps && n_left > 0; ++s) {
-    const bool is_after = simulation.first_contact().has_value();
+    const bool is_after = simulation.stepper().first_contact().has_value();
     if (!is_after) at = simulation.state();
     if (is_after && friction) friction->begin(simulation.state(), simulation.time());
     check_report(timed.step());
-    if (!simulation.first_contact()) continue;
+    if (!simulation.stepper().first_contact()) continue;
     if (!is_after) timed.clear_costs();
     if (is_after && friction) friction->end();
-    touched.look(run);
+    touched.measure(run);
     --n_left;
   }
-  if (!simulation.first_contact())
+  if (!simulation.stepper().first_contact())
     throw InputError("/duration_s", "expected a time in which the cloth meets a solid");
-  first_contact = *simulation.first_contact();
+  first_contact = *simulation.stepper().first_contact();
   if (n_left > 0)
     throw InputError("/duration_s", "expected at least " + Json(first_contact + window).dump() +
                                         " s, first contact and the time that is looked at after "
                                         "it, got " +
                                         Json(scene.duration).dump() + " s");
-  run.contact_share = timed.parts().total(Stage::contact) / timed.seconds();
+  run.contact_share = timed.parts().total(Part::contact) / timed.seconds();
   if (friction) run.friction = friction->result();
   return run;
 }

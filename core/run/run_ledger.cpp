@@ -10,7 +10,7 @@ RunLedger::RunLedger(const Simulation& simulation)
       begin_(simulation.state()),
       time_begin_(simulation.time()) {}
 
-void RunLedger::look() {
+void RunLedger::record_step() {
   if (simulation_.time() == time_begin_) return;
   const auto n_before = static_cast<std::size_t>(begin_.positions.cols());
   const auto n_now = static_cast<std::size_t>(simulation_.state().positions.cols());

@@ -12,7 +12,7 @@ class RunLedger {
   explicit RunLedger(const Simulation& simulation);
 
   /// Call after each step. One that ended the run leaves the account as it was.
-  void look();
+  void record_step();
 
   const EnergyLedger& account() const { return account_; }
 

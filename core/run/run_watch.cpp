@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
-#include <variant>
 
+#include "core/base/formatted.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/model/elasticity.h"
 
@@ -40,8 +39,7 @@ double edge_stiffness(const Scene& scene, const GaugeEdge& edge) {
 /// through the middle of the cloth.
 double holding_stiffness(const Simulation& simulation) {
   const ClothModel& model = simulation.model();
-  std::vector<bool> is_held(static_cast<std::size_t>(model.n_vertices()), false);
-  for (const Pin& pin : model.pins) is_held[pin.vertex] = true;
+  const std::vector<bool> is_held = model.pinned();
   double held = 0;
   double all = 0;
   const auto add = [&](VertexId a, VertexId b, double stiffness) {
@@ -156,37 +154,25 @@ constexpr std::array<Word<RunWarning::Kind>, 4> kKinds = {
      {"unsolved", RunWarning::Kind::unsolved},
      {"not_converged", RunWarning::Kind::not_converged}}};
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 }  // namespace
 
 std::string sentence(const RunWarning& warning) {
-  const std::string since = "from " + number(warning.time) + " s";
+  const std::string since = "from " + three_digits(warning.time) + " s";
   const std::string place = since + " at vertex " + std::to_string(warning.vertex.value);
-  std::string text;
+  const std::string left = three_digits(100 * warning.value) + " % of their equations unsolved";
   switch (warning.kind) {
     case RunWarning::Kind::stretch:
-      text = place + " on, the cloth stretched by up to " + number(100 * warning.value) +
-             " %; its load explains " + number(100 * warning.bound) + " %";
-      break;
+      return place + " on, the cloth stretched by up to " + three_digits(100 * warning.value) +
+             " %; its load explains " + three_digits(100 * warning.bound) + " %";
     case RunWarning::Kind::speed:
-      text = place + " on, the cloth was as fast as " + number(warning.value) +
-             " m/s; falling and pulling explain " + number(warning.bound) + " m/s";
-      break;
+      return place + " on, the cloth was as fast as " + three_digits(warning.value) +
+             " m/s; falling and pulling explain " + three_digits(warning.bound) + " m/s";
     case RunWarning::Kind::unsolved:
-      text = since + " on, steps left " + number(100 * warning.value) +
-             " % of their equations unsolved";
-      break;
+      return since + " on, steps left " + left;
     case RunWarning::Kind::not_converged:
-      text = since + " on, steps did not converge and left " + number(100 * warning.value) +
-             " % of their equations unsolved";
-      break;
+      return since + " on, steps did not converge and left " + left;
   }
-  return text;
+  return "";
 }
 
 std::string advice(const RunWarning& warning) {
@@ -252,14 +238,14 @@ RunWatch::RunWatch(const Simulation& simulation) {
                  (mass > 0 ? std::sqrt(2 * std::max(0.0, stored) / mass) : 0);
 }
 
-void RunWatch::look(const Simulation& simulation, const SolveReport& step) {
+void RunWatch::check(const Simulation& simulation, const SolveReport& step) {
   driven_speed_ = std::max(driven_speed_, driven_speed(simulation));
-  look_at_stretch(simulation);
-  look_at_speed(simulation);
-  look_at_report(simulation, step);
+  check_stretch(simulation);
+  check_speed(simulation);
+  check_report(simulation, step);
 }
 
-void RunWatch::look_at_stretch(const Simulation& simulation) {
+void RunWatch::check_stretch(const Simulation& simulation) {
   const Positions& positions = simulation.state().positions;
   RunWarning warning{RunWarning::Kind::stretch,
                      simulation.time(),
@@ -277,7 +263,7 @@ void RunWatch::look_at_stretch(const Simulation& simulation) {
   if (warning.value > warning.bound) warn(simulation, std::move(warning));
 }
 
-void RunWatch::look_at_speed(const Simulation& simulation) {
+void RunWatch::check_speed(const Simulation& simulation) {
   const ClothModel& model = simulation.model();
   const State& state = simulation.state();
   const Fastest fastest = fastest_of(state.velocities);
@@ -295,7 +281,7 @@ void RunWatch::look_at_speed(const Simulation& simulation) {
                     {}});
 }
 
-void RunWatch::look_at_report(const Simulation& simulation, const SolveReport& step) {
+void RunWatch::check_report(const Simulation& simulation, const SolveReport& step) {
   const bool is_unsolved =
       simulation.scene().method.stepper->solves_equations && step.relative_residual > kUnsolved;
   n_unsolved_ = is_unsolved ? n_unsolved_ + 1 : 0;

@@ -52,15 +52,15 @@ class RunWatch {
   explicit RunWatch(const Simulation& simulation);
 
   /// step  the report of the steps since the last look
-  void look(const Simulation& simulation, const SolveReport& step);
+  void check(const Simulation& simulation, const SolveReport& step);
 
   /// At most one of each kind, as they were seen, but that which is not nonsense last.
   const std::vector<RunWarning>& warnings() const { return warnings_; }
 
  private:
-  void look_at_stretch(const Simulation& simulation);
-  void look_at_speed(const Simulation& simulation);
-  void look_at_report(const Simulation& simulation, const SolveReport& step);
+  void check_stretch(const Simulation& simulation);
+  void check_speed(const Simulation& simulation);
+  void check_report(const Simulation& simulation, const SolveReport& step);
   void warn(const Simulation& simulation, RunWarning warning);
 
   double load_stretch_;      // stretch under the cloth's whole weight, with room for motion [1]

@@ -1,9 +1,5 @@
 #include "core/run/sampled_run.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "core/base/check.h"
 #include "core/scene/tearing.h"
 
@@ -35,18 +31,6 @@ SampledRun::SampledRun(const Scene& scene, std::vector<double> times, Parts part
   if (parts != Parts::untimed) watch_.emplace(simulation_);
 }
 
-double SampledRun::relative_drift() const {
-  return ledger_ ? ledger_->account().relative_drift() : std::numeric_limits<double>::quiet_NaN();
-}
-
-std::vector<RunWarning> SampledRun::warnings() const {
-  return watch_ ? watch_->warnings() : std::vector<RunWarning>();
-}
-
-double SampledRun::timed_duration() const {
-  return static_cast<double>(run_.n_timed()) * simulation_.scene().method.step;
-}
-
 bool SampledRun::sample_is_due() const {
   const double step = simulation_.scene().method.step;
   return samples_.size() < times_.size() &&
@@ -74,9 +58,9 @@ void SampledRun::step() {
   if (sampling) begin_ = simulation_.state();
   const SolveReport report = run_.step();
   if (report.ends_run()) return;
-  if (watch_) watch_->look(simulation_, report);
+  if (watch_) watch_->check(simulation_, report);
   if (sampling) take_samples(begin_, time_begin);
-  if (ledger_) ledger_->look();
+  if (ledger_) ledger_->record_step();
 }
 
 void SampledRun::advance(double budget) {
@@ -85,10 +69,6 @@ void SampledRun::advance(double budget) {
     step();
     if (watch.elapsed() >= budget) return;
   }
-}
-
-double SampledRun::progress() const {
-  return done() ? 1 : std::min(1.0, simulation_.time() / times_.back());
 }
 
 }  // namespace pleat

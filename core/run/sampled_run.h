@@ -1,7 +1,7 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -50,7 +50,8 @@ class SampledRun {
   /// Steps until done or until `budget` [s] is spent, at least once.
   void advance(double budget);
 
-  double progress() const;  ///< share of the steps done, in [0, 1]
+  /// Share of the steps done, in [0, 1].
+  double progress() const { return done() ? 1 : std::min(1.0, simulation_.time() / times_.back()); }
   const Simulation& simulation() const { return simulation_; }
   const std::vector<double>& times() const { return times_; }
   const std::vector<Sample>& samples() const { return samples_; }
@@ -58,13 +59,20 @@ class SampledRun {
   /// largest of all steps, its iterations their sum.
   const SolveReport& report() const { return run_.report(); }
   double timed_seconds() const { return run_.seconds(); }  ///< wall time [s]
-  double timed_duration() const;                           ///< simulated time [s]
+  /// Simulated time of these [s].
+  double timed_duration() const {
+    return static_cast<double>(run_.n_timed()) * simulation_.scene().method.step;
+  }
   /// Times of the same steps' parts; zero unless timed.
-  const StageTimer& parts() const { return run_.parts(); }
+  const PartTimer& parts() const { return run_.parts(); }
   /// See EnergyLedger; NaN without it.
-  double relative_drift() const;
+  double relative_drift() const {
+    return ledger_ ? ledger_->account().relative_drift() : std::numeric_limits<double>::quiet_NaN();
+  }
   /// See RunWatch, which looks at each step; none when untimed.
-  std::vector<RunWarning> warnings() const;
+  std::vector<RunWarning> warnings() const {
+    return watch_ ? watch_->warnings() : std::vector<RunWarning>();
+  }
 
  private:
   void step();

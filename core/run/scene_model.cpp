@@ -1,7 +1,6 @@
 #include "core/run/scene_model.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -76,8 +75,7 @@ double longest_edge(const Positions& positions, const std::array<VertexId, 4>& c
 
 /// The radius of the largest face around each vertex [m]: of a garment half of the longest edge of
 /// quads, whose threads run along limbs and around them; of other cloth a triangle's circumradius.
-/// A hanging vertex is in the middle of an edge twice as long, which its parents alone hold off and
-/// which may be stretched.
+/// A hanging vertex is in the middle of an edge twice as long.
 Eigen::VectorXd face_radii(const Scene& scene, const RestCloth& cloth, const ClothModel& model) {
   const Positions& positions = cloth.mesh.rest_positions;
   Eigen::VectorXd radii = Eigen::VectorXd::Zero(positions.cols());
@@ -139,16 +137,16 @@ BuildReport build_report(const ClothModel& model, const ModelOptions& options) {
     if (is_built) report.bytes.push_back(bytes);
   };
   // Several kinds of element may build the same part.
-  struct Part {
+  struct ModelPart {
     std::string_view name;
     bool is_built;
     std::size_t bytes;
   };
-  std::vector<Part> parts;
+  std::vector<ModelPart> parts;
   for_each_element_kind(model, [&parts](const auto& kind) {
     kind.for_each_part([&parts](bool is_built, std::string_view name, std::size_t bytes) {
       const auto known = std::find_if(parts.begin(), parts.end(),
-                                      [&](const Part& part) { return part.name == name; });
+                                      [&](const ModelPart& part) { return part.name == name; });
       if (known == parts.end()) {
         parts.push_back({name, is_built, bytes});
       } else {
@@ -157,7 +155,7 @@ BuildReport build_report(const ClothModel& model, const ModelOptions& options) {
       }
     });
   });
-  for (const Part& part : parts) note(part.is_built, part.name, part.bytes);
+  for (const ModelPart& part : parts) note(part.is_built, part.name, part.bytes);
   note(!model.gravity.isZero(), "gravity", sizeof model.gravity);
   note(!model.pins.empty(), "pins", bytes_of(model.pins));
   note(model.air.has_value(), "air drag", model.air ? model.air->bytes() : 0);

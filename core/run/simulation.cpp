@@ -1,8 +1,6 @@
 #include "core/run/simulation.h"
 
-#include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "core/base/check.h"
@@ -49,7 +47,7 @@ void Simulation::start() {
   stepper_->observe(observer_);
 }
 
-void Simulation::observe(StageObserver* observer) {
+void Simulation::observe(PartObserver* observer) {
   observer_ = observer;
   stepper_->observe(observer);
 }
@@ -61,12 +59,12 @@ void Simulation::reset() {
   start();
 }
 
-/// Pins stay, and what the contact stage has counted.
+/// Pins stay, and what the contact pass has counted.
 void Simulation::take_cloth(RestCloth cloth) {
   stepper_.reset();  // it refers to the model
   cloth_ = std::move(cloth);
   std::vector<Pin> pins = std::move(model_.pins);
-  std::optional<ContactStage> contact = std::move(model_.contact);
+  std::optional<ContactPass> contact = std::move(model_.contact);
   model_ = scene_model(scene_, cloth_);
   model_.pins = std::move(pins);
   if (contact) contact->set_options(model_.contact->options());
@@ -102,7 +100,7 @@ void Simulation::tear() {
   tear_origins_.insert(tear_origins_.end(), torn->origins.begin(), torn->origins.end());
 }
 
-void Simulation::start_from(const Eigen::Ref<const Positions>& positions) {
+void Simulation::start_from(const PositionsView& positions) {
   const auto n_vertices = static_cast<Eigen::Index>(model_.masses.size()) -
                           static_cast<Eigen::Index>(tear_origins_.size());
   if (positions.cols() != n_vertices || !positions.allFinite())
@@ -202,8 +200,7 @@ void Simulation::grab(VertexId vertex) {
   PLEAT_CHECK(vertex >= 0 && vertex < model_.n_vertices(), "a grabbed vertex exists");
   release_grab();
   was_led_astray_ = true;
-  std::vector<bool> pinned(static_cast<std::size_t>(model_.n_vertices()), false);
-  for (const Pin& pin : model_.pins) pinned[pin.vertex] = true;
+  const std::vector<bool> pinned = model_.pinned();
   grab_ = Grab{vertex, model_.pins.size(), state_.positions.col(vertex)};
   const double radius =
       scene_.cloth->is_surface() ? kHandRadius * scene_.cloth->rest_diagonal() : 0;

@@ -20,16 +20,15 @@ class Simulation final : public MovingCloth {
   /// Throws InputError when the scene's method cannot run on it.
   explicit Simulation(const Scene& scene);
 
-  /// One step of scene.method.step. Cloth that tears does so first, where it is overloaded. After a
-  /// report that is not ok or not_converged the state is the
-  /// last finite one and further steps return the same report.
+  /// One step of scene.method.step. Cloth that tears does so first. After a report that is not ok
+  /// or not_converged the state is the last finite one and further steps return that report.
   SolveReport step() override;
   /// Starts anew, whole.
   void reset();
 
   /// Starts from these places at rest [m], one column a vertex, now and at each reset. Pins are
   /// where that puts their vertices. Throws InputError unless there are as many and all are finite.
-  void start_from(const Eigen::Ref<const Positions>& positions);
+  void start_from(const PositionsView& positions);
 
   /// Goes on from this state at a time of the scene's own [s]: pins and solids are where they are
   /// then, hanging vertices in the middle of their parents. A reset starts the scene. Throws
@@ -41,11 +40,10 @@ class Simulation final : public MovingCloth {
                   const Positions& contact_accelerations = Positions(3, 0));
 
   /// Takes the motion of `old` over: vertices that both meshes share keep position and velocity to
-  /// the bit, new ones are interpolated along the mesh lines. Forces go on as they were and turn
-  /// into this scene's own within kTransitionTime, so that a change of mesh or fabric does not
-  /// shake the cloth; until then it does not tear. Moments of inner friction go on where the same
-  /// three vertices follow each other, and start at zero elsewhere. Throws ContractError unless
-  /// both are sheets with the same base mesh, and `old` is whole.
+  /// the bit, new ones are interpolated along the mesh lines. Forces turn into this scene's own
+  /// within kTransitionTime; until then it does not tear. Moments of inner friction go on where the
+  /// same three vertices follow each other, and start at zero elsewhere. Throws ContractError
+  /// unless both are sheets with the same base mesh, and `old` is whole.
   void carry_over(const Simulation& old);
 
   /// Holds every vertex within the hand's radius (kHandRadius of the rest diagonal; of
@@ -88,21 +86,13 @@ class Simulation final : public MovingCloth {
     return time_begin_ + static_cast<double>(n_steps_) * scene_.method.step;
   }
   int substeps() const { return stepper_->substeps(); }
-  /// See Stepper::remark.
-  std::string remark() const { return stepper_->remark(); }
-  /// See Stepper::first_contact.
-  std::optional<double> first_contact() const { return stepper_->first_contact(); }
-  /// See Stepper::contact_forces.
-  bool remembers_contact_forces() const { return stepper_->contact_forces().cols() > 0; }
+  /// Another one after each reset and tear.
+  const Stepper& stepper() const { return *stepper_; }
   /// Contact forces over the vertices' masses [m/s^2]; zero where vertices hang.
   Positions contact_accelerations() const;
-  /// See Stepper::strain_limit.
-  const StrainLimitStage* strain_limit() const { return stepper_->strain_limit(); }
   /// The longest substep that is surely stable [s]; nothing where the method has no bound.
   std::optional<double> stability_bound() const;
-  /// See Stepper::implicit_springs.
-  std::span<const char> implicit_springs() const { return stepper_->implicit_springs(); }
-  void observe(StageObserver* observer) override;
+  void observe(PartObserver* observer) override;
 
  private:
   void expect_outside_of_solids() const;
@@ -128,7 +118,7 @@ class Simulation final : public MovingCloth {
   std::optional<Positions> start_positions_;  // when not those of the scene [m]
   State state_;
   std::unique_ptr<Stepper> stepper_;
-  StageObserver* observer_ = nullptr;
+  PartObserver* observer_ = nullptr;
   double time_begin_ = 0;  // when this cloth went on from another's state [s]
   std::int64_t n_steps_ = 0;
   bool was_led_astray_ = false;

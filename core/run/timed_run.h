@@ -1,17 +1,14 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "core/run/moving_cloth.h"
-#include "core/run/stage_timer.h"
+#include "core/run/part_timer.h"
 
 namespace pleat {
 
-/// Steps a cloth and keeps what its steps reported and what they cost by the clock.
-///
-/// The first step, in which steppers build what they keep, is part of the report and not of the
-/// costs.
+/// Steps a cloth and keeps its steps' reports and their cost by the clock, without that of the
+/// first, in which steppers build what they keep.
 class TimedRun {
  public:
   /// Timing the parts of a step costs time itself.
@@ -37,7 +34,7 @@ class TimedRun {
   const SolveReport& report() const { return report_; }
   std::int64_t n_timed() const { return n_timed_; }  ///< steps on the clock
   double seconds() const { return seconds_; }  ///< wall time of these steps, parts and all else
-  const StageTimer& parts() const { return parts_; }  ///< times of their parts; zero when untimed
+  const PartTimer& parts() const { return parts_; }  ///< times of their parts; zero when untimed
 
   /// Forgets the costs, not the report.
   void clear_costs();
@@ -45,7 +42,7 @@ class TimedRun {
  private:
   MovingCloth& cloth_;
   Parts which_parts_;
-  StageTimer parts_;
+  PartTimer parts_;
   SolveReport report_;
   bool is_first_step_ = true;
   std::int64_t n_timed_ = 0;

@@ -49,9 +49,7 @@ class ClothSource {
 
   /// Vertices after `level` uniform refinements, counted without making them.
   virtual std::int64_t n_vertices(int level) const = 0;
-  /// Refined uniformly.
-  ///
-  /// level  0 to kMaxLevel; 0 where is_surface() is false
+  /// Refined uniformly, 0 to kMaxLevel times; 0 where is_surface() is false.
   virtual RestCloth at_rest(int level) const = 0;
   /// Remark of its reader, a sentence; mostly empty.
   virtual std::string remark() const { return {}; }

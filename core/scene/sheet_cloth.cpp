@@ -1,17 +1,11 @@
 #include "core/scene/sheet_cloth.h"
 
-#include <cmath>
-
-#include "core/scene/sheet_section.h"
-
 namespace pleat {
 namespace {
 
 constexpr SheetWords kSheetWords{"warp_direction", "weft_direction", 0};
 
 }  // namespace
-
-const char* SheetCloth::key() const { return "sheet"; }
 
 Json SheetCloth::json() const {
   Json json = json_sheet_shape(kSheetWords, shape);
@@ -24,23 +18,11 @@ std::int64_t SheetCloth::n_vertices(int level) const {
   return (shape.columns * cells_per_side + 1) * (shape.rows * cells_per_side + 1);
 }
 
-double SheetCloth::rest_diagonal() const { return std::hypot(shape.width, shape.height); }
-
-QuadMesh SheetCloth::base_quads() const { return QuadMesh::sheet(shape); }
-
 RestCloth SheetCloth::at_rest(QuadMesh quads) const {
   RestCloth cloth = flat_rest_cloth(std::move(quads));
   cloth.start_velocities = initial_velocity.replicate(1, cloth.start.cols());
   cloth.groups = sheet_part_groups(shape, cloth.rest_coordinates);
   return cloth;
-}
-
-std::string SheetCloth::read_part(const JsonReader& reader) const {
-  return read_sheet_part(reader);
-}
-
-std::vector<VertexId> SheetCloth::base_part(const std::string& name) const {
-  return sheet_part(shape, name);
 }
 
 SheetCloth read_sheet(const JsonReader& reader) {

@@ -22,10 +22,8 @@ void read_sheet_shape(const JsonReader& reader, const SheetWords& words, SheetSh
 /// Object with the keys of the shape, in the form of write_scene.
 Json json_sheet_shape(const SheetWords& words, const SheetShape& shape);
 
-/// Edges and corners by name: upper is u = 0 (where warp begins), left is v = 0 (where weft
-/// begins).
-///
-/// uv  2 x n [m], of any refinement
+/// Edges and corners by name, of any refinement (2 x n [m]): upper is u = 0 (where warp begins),
+/// left is v = 0 (where weft begins).
 std::vector<VertexGroup> sheet_part_groups(const SheetShape& shape, const RestCoordinates& uv);
 
 /// The name of an edge or a corner. Throws InputError for any other.

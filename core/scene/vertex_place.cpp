@@ -1,9 +1,9 @@
 #include "core/scene/vertex_place.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "core/base/check.h"
+#include "core/base/formatted.h"
 #include "core/files/nearest_word.h"
 #include "core/scene/vertex_arrays.h"
 
@@ -19,10 +19,8 @@ std::string listed(const std::vector<VertexGroup>& groups) {
 std::string extent(const Positions& positions) {
   const Vec3 low = positions.rowwise().minCoeff();
   const Vec3 high = positions.rowwise().maxCoeff();
-  char text[200];
-  std::snprintf(text, sizeof text, "which lies from (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g) m",
-                low.x(), low.y(), low.z(), high.x(), high.y(), high.z());
-  return text;
+  return formatted("which lies from (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g) m", low.x(), low.y(),
+                   low.z(), high.x(), high.y(), high.z());
 }
 
 /// A point that far off is a slip, such as millimetres for metres, and its nearest vertex chance.
@@ -31,12 +29,11 @@ void check_is_by(const JsonReader& reader, const Vec3& point, double radius,
   const double distance = (positions.colwise() - point).colwise().norm().minCoeff();
   const double size = box_diagonal(positions);
   if (distance <= std::max(radius, size)) return;
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "expected a point no farther from the cloth than its size, %.4g m, got (%.4g, "
+  throw InputError(
+      reader.pointer(),
+      formatted("expected a point no farther from the cloth than its size, %.4g m, got (%.4g, "
                 "%.4g, %.4g) m, %.4g m from the nearest vertex",
-                size, point.x(), point.y(), point.z(), distance);
-  throw InputError(reader.pointer(), text);
+                size, point.x(), point.y(), point.z(), distance));
 }
 
 std::vector<VertexId> read_near(const JsonReader& reader, const Positions& positions) {

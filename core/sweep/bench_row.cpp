@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 #include "core/base/check.h"
+#include "core/base/formatted.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/scene/format/method_section.h"
 #include "core/sweep/pareto.h"
@@ -88,12 +88,7 @@ constexpr NumberColumn kNumberColumns[] = {
 };
 
 /// A number with three significant digits, or a dash.
-std::string short_number(double value) {
-  if (!std::isfinite(value)) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+std::string short_number(double value) { return std::isfinite(value) ? three_digits(value) : "-"; }
 
 std::string method_phrase(const BenchRow& row) {
   const MethodOptions& method = row.method;
@@ -146,13 +141,13 @@ std::string value_cell(const BenchRow& row, const std::string& pointer) {
 }
 
 /// The parts of a step that took time in some row.
-std::vector<Stage> timed_parts(std::span<const BenchRow> rows) {
-  std::vector<Stage> parts;
-  for (int s = 0; s < kStageCount; ++s) {
+std::vector<Part> timed_parts(std::span<const BenchRow> rows) {
+  std::vector<Part> parts;
+  for (int s = 0; s < kPartCount; ++s) {
     const auto took_time = [s](const BenchRow& row) {
       return row.parts_ms[static_cast<std::size_t>(s)] > 0;
     };
-    if (std::any_of(rows.begin(), rows.end(), took_time)) parts.push_back(static_cast<Stage>(s));
+    if (std::any_of(rows.begin(), rows.end(), took_time)) parts.push_back(static_cast<Part>(s));
   }
   return parts;
 }
@@ -160,7 +155,7 @@ std::vector<Stage> timed_parts(std::span<const BenchRow> rows) {
 /// The columns of a table that are not the same in all.
 struct VaryingColumns {
   std::vector<std::string> pointers;
-  std::vector<Stage> parts;
+  std::vector<Part> parts;
 };
 
 std::string table_head(const VaryingColumns& varying) {
@@ -168,7 +163,7 @@ std::string table_head(const VaryingColumns& varying) {
   for (const std::string& pointer : varying.pointers) head += cell(cut(pointer));
   head += "vertices | ";
   for (const NumberColumn& column : kNumberColumns) head += cell(column.title);
-  for (const Stage part : varying.parts) head += cell(std::string(name(part)) + " ms");
+  for (const Part part : varying.parts) head += cell(std::string(name(part)) + " ms");
   head += "process peak MB | status |\n|";
   const std::size_t n_columns =
       6 + varying.pointers.size() + std::size(kNumberColumns) + varying.parts.size();
@@ -188,7 +183,7 @@ std::string table_line(const BenchRow& row, bool is_on_front, const VaryingColum
   line += cell(std::to_string(row.n_vertices));
   for (const NumberColumn& column : kNumberColumns)
     line += cell(short_number(column.factor * row.*column.value));
-  for (const Stage part : varying.parts)
+  for (const Part part : varying.parts)
     line += cell(short_number(row.parts_ms[static_cast<std::size_t>(part)]));
   constexpr double kBytesPerMegabyte = 1e6;
   line += cell(short_number(row.process_peak_memory
@@ -233,10 +228,10 @@ bool BenchRow::is_plausible() const {
                       [](const RunWarning& warning) { return warning.is_nonsense(); });
 }
 
-Json json_parts(const std::array<double, kStageCount>& parts_ms) {
+Json json_parts(const std::array<double, kPartCount>& parts_ms) {
   Json json = Json::object();
-  for (int s = 0; s < kStageCount; ++s)
-    json[name(static_cast<Stage>(s))] = parts_ms[static_cast<std::size_t>(s)];
+  for (int s = 0; s < kPartCount; ++s)
+    json[name(static_cast<Part>(s))] = parts_ms[static_cast<std::size_t>(s)];
   return json;
 }
 
@@ -272,9 +267,9 @@ BenchRow read_bench_row(const JsonReader& reader, StepperTable steppers) {
   for (const NumberField& field : kNumberFields)
     row.*field.value = reader.at(field.key).number_or(BenchRow::kUnknown);
   const JsonReader parts = reader.at("parts_ms");
-  for (int s = 0; s < kStageCount; ++s)
+  for (int s = 0; s < kPartCount; ++s)
     row.parts_ms[static_cast<std::size_t>(s)] =
-        parts.at(name(static_cast<Stage>(s))).number(kNotNegative);
+        parts.at(name(static_cast<Part>(s))).number(kNotNegative);
   const JsonReader memory = reader.at("process_peak_memory_bytes");
   if (!memory.is_null()) row.process_peak_memory = memory.integer(0, std::int64_t{1} << 53);
   row.warnings = read_warnings(reader.at("warnings"));

@@ -30,12 +30,12 @@ struct BenchRow {
   int level = 0;
   int n_vertices = 0;
   int n_substeps = 0;             ///< substeps of a step, as run
-  int n_unresolved_contacts = 0;  ///< see ContactStage::n_unresolved
+  int n_unresolved_contacts = 0;  ///< see ContactPass::n_unresolved
 
   double ms_per_frame = kUnknown;  ///< wall time per simulated 1/60 s, median of the runs [ms]
   double spread_ms = kUnknown;     ///< slowest minus quickest run of ms_per_frame [ms]
   int n_runs = 0;  ///< timed; each from a state built anew, its first step not counted
-  std::array<double, kStageCount> parts_ms{};  ///< parts of a frame, from a run of its own [ms]
+  std::array<double, kPartCount> parts_ms{};  ///< parts of a frame, from a run of its own [ms]
 
   double position_error = kUnknown;          ///< RMS over the cloth and the sample times [m]
   double position_error_percent = kUnknown;  ///< share of the rest diagonal [%]
@@ -77,7 +77,7 @@ struct BenchRow {
 };
 
 /// The parts of a step with their names, as a row has them.
-Json json_parts(const std::array<double, kStageCount>& parts_ms);
+Json json_parts(const std::array<double, kPartCount>& parts_ms);
 
 Json json_bench_row(const BenchRow& row);
 

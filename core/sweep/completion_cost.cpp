@@ -6,7 +6,7 @@
 #include "core/base/check.h"
 #include "core/modal/fill_in.h"
 #include "core/modal/full_arap.h"
-#include "core/run/stage_timer.h"
+#include "core/run/part_timer.h"
 
 namespace pleat {
 

@@ -6,7 +6,7 @@ namespace pleat {
 
 DeformCost deform_cost(const DeformScene& scene) {
   const HeldVertices held = held_vertices(scene);
-  StageTimer parts;
+  PartTimer parts;
   DeformCost cost;
   const Stopwatch watch;
   DeformSolver solver(scene.mesh, scene.form, scene.weights());
@@ -18,9 +18,9 @@ DeformCost deform_cost(const DeformScene& scene) {
   cost.total_ms = 1e3 * watch.elapsed();
   cost.n_linearisations = solver.n_linearisations();
   cost.n_steps = static_cast<int>(solver.steps().size());
-  cost.assembly_ms = 1e3 * parts.total(Stage::assembly) / cost.n_linearisations;
-  cost.factor_ms = 1e3 * parts.total(Stage::factor) / cost.n_linearisations;
-  cost.solve_ms = 1e3 * parts.total(Stage::solve) / std::max(1, cost.n_steps);
+  cost.assembly_ms = 1e3 * parts.total(Part::assembly) / cost.n_linearisations;
+  cost.factor_ms = 1e3 * parts.total(Part::factor) / cost.n_linearisations;
+  cost.solve_ms = 1e3 * parts.total(Part::solve) / std::max(1, cost.n_steps);
   cost.terms = solver.terms();
   cost.energy = cost.terms.weighted(scene.weights());
   return cost;

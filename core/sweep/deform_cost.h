@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/deform/deform_solver.h"
-#include "core/run/stage_timer.h"
+#include "core/run/part_timer.h"
 #include "core/scene/deform/deform_scene.h"
 
 namespace pleat {

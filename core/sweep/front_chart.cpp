@@ -1,10 +1,9 @@
 #include "core/sweep/front_chart.h"
+#include "core/base/formatted.h"
 #include "core/dynamics/stepper_table.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <map>
 #include <optional>
 #include <set>
@@ -26,16 +25,6 @@ constexpr std::size_t kMostListed = 40;
 
 constexpr const char* kFrontColour = "#111";  // line of the front and borders of its marks
 constexpr const char* kPlainBorder = "#fff";
-
-/// printf into a string.
-__attribute__((format(printf, 1, 2))) std::string formatted(const char* format, ...) {
-  char text[256];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 std::string xml_text(const std::string& text) {
   const std::map<char, std::string> entities = {

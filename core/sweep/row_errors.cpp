@@ -1,8 +1,8 @@
 #include "core/sweep/row_errors.h"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "core/base/formatted.h"
 #include "core/error/error_norms.h"
 #include "core/error/run_comparison.h"
 
@@ -12,12 +12,10 @@ namespace {
 constexpr double kUncertaintyShare = 4;  // an error is known when it is so many times as large
 
 std::string unconverged_sentence(double distance, double uncertainty) {
-  char sentence[160];
-  std::snprintf(sentence, sizeof sentence,
-                "no error: %.3g mm from the reference, which itself changes by %.3g mm "
-                "when its step or mesh is halved",
-                1e3 * distance, 1e3 * uncertainty);
-  return sentence;
+  return formatted(
+      "no error: %.3g mm from the reference, which itself changes by %.3g mm "
+      "when its step or mesh is halved",
+      1e3 * distance, 1e3 * uncertainty);
 }
 
 /// The RMS over the sample times of the RMS, and the largest of the largest.

@@ -9,7 +9,6 @@
 #include "core/dynamics/stepper_table.h"
 #include "core/error/error_norms.h"
 #include "core/files/json_reader.h"
-#include "core/scene/format/cloth_section.h"
 #include "core/scene/format/fabric_section.h"
 #include "core/scene/format/method_section.h"
 #include "core/scene/format/model_section.h"
@@ -87,10 +86,6 @@ Sweep::Sweep(SweepPlan plan, ReferenceStore& store, std::string commit)
 
 bool Sweep::run_is_left_out() const {
   return !done() && !in_first_round() && !can_be_timed(rows_[setting()]);
-}
-
-void Sweep::skip_left_out() {
-  while (run_is_left_out()) ++n_done_;
 }
 
 /// Takes what the store has. A finer one that is there needs no coarser one to be made.

@@ -18,12 +18,11 @@ namespace pleat {
 /// has another text. Throws InputError at /duration_s when a reference has too many steps.
 std::string sweep_identity(const SweepPlan& plan, const std::string& commit);
 
-/// Works through a plan in slices, so that a page can show progress and give up at any time.
+/// Works through a plan in slices.
 ///
 /// Every setting runs once with its parts timed, which gives its row, after the references that it
 /// needs; then all settings run again in turn, n_repeats times, which gives the row its median
-/// time. A row's numbers other than times and memory do not depend on the slicing. References that
-/// the store has by the first `advance` are not made.
+/// time. References that the store has by the first `advance` are not made.
 ///
 /// Every finished run is a line of a journal. A sweep that resumes one runs only what is missing.
 class Sweep {
@@ -83,7 +82,9 @@ class Sweep {
   void keep_time(double ms_per_frame);
   void record_row(BenchRow row);
   void record_time(double ms_per_frame);
-  void skip_left_out();
+  void skip_left_out() {
+    while (run_is_left_out()) ++n_done_;
+  }
   bool take_line(std::string_view line);
   std::vector<ExpectedWork> works() const;
 

@@ -1,13 +1,10 @@
 #include "core/sweep/sweep_plan.h"
 
 #include <array>
-#include <cmath>
 #include <set>
 
 #include "core/base/check.h"
-#include "core/files/json_reader.h"
 #include "core/reference/reference.h"
-#include "core/scene/format/cloth_section.h"
 #include "core/scene/format/scene_override.h"
 
 namespace pleat {

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <limits>
 #include <map>
-#include <optional>
 #include <set>
 #include <span>
 #include <utility>
 
 #include "core/base/check.h"
+#include "core/base/formatted.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/error/error_norms.h"
 #include "core/error/run_comparison.h"
@@ -63,17 +62,8 @@ double reference_step(const SweepPlan& plan, const Family& family) {
 }  // namespace
 
 const char* id_prefix(ReferenceKind kind) {
-  switch (kind) {
-    case ReferenceKind::converged:
-      return "converged";
-    case ReferenceKind::rigid_chain:
-      return "chain";
-    case ReferenceKind::same_mesh:
-      return "same-mesh";
-    case ReferenceKind::closed_form:
-      return "closed-form";
-  }
-  return "";
+  constexpr const char* kPrefixes[] = {"converged", "same-mesh", "chain", "closed-form"};
+  return kPrefixes[static_cast<std::size_t>(kind)];
 }
 
 MethodOptions exact_method(double step) {
@@ -109,10 +99,8 @@ void doubt(Reference& reference, const Scene& scene, const char* halved,
   reference.label.uncertainty = std::max(reference.label.uncertainty, change);
   for (std::size_t s = 0; s < changes.size(); ++s)
     reference.samples[s].uncertainty = std::max(reference.samples[s].uncertainty, changes[s]);
-  char phrase[80];
-  std::snprintf(phrase, sizeof phrase, "; halving its %s changed it by %.3g mm", halved,
-                1e3 * change);
-  reference.label.description += phrase;
+  reference.label.description +=
+      formatted("; halving its %s changed it by %.3g mm", halved, 1e3 * change);
   reference.label.converged = is_converged(scene, reference.label.uncertainty);
 }
 

@@ -13,9 +13,8 @@ namespace pleat {
 /// Start of such a reference's id.
 const char* id_prefix(ReferenceKind kind);
 
-/// newton with the midpoint rule and a direct solver: how exact references are run.
-///
-/// step  [s], positive
+/// newton with the midpoint rule and a direct solver: how exact references are run, in steps of
+/// [s].
 MethodOptions exact_method(double step);
 
 /// Source of one reference of a sweep.

@@ -68,7 +68,7 @@ TEST_CASE("contact: solids that are passed over change no bit", "[contact]") {
   const int n_vertices = 60;
   const std::vector<Collider> solids = random_solids(random);
   const ContactOptions options{0.001, Eigen::VectorXd::LinSpaced(n_vertices, 0, 0.02)};
-  ContactStage stage(solids, options);
+  ContactPass pass(solids, options);
   Positions positions(3, n_vertices);
   for (int i = 0; i < n_vertices; ++i) positions.col(i) = 2 * random_direction(random);
   Positions velocities = Positions::Zero(3, n_vertices);
@@ -79,9 +79,9 @@ TEST_CASE("contact: solids that are passed over change no bit", "[contact]") {
     // Most substeps follow one another, some are long, and some go back in time.
     const double h = k % 20 == 0 ? 0.2 : random.uniform(0.001, 0.01);
     if (k % 50 == 49) time = random.uniform(0, 1);
-    ContactStage fresh(solids, options);
+    ContactPass fresh(solids, options);
     fresh.begin_substep(time, time + h);
-    stage.begin_substep(time, time + h);
+    pass.begin_substep(time, time + h);
     for (int i = 0; i < n_vertices; ++i)  // some vertices are where no path has led
       if (random.below(100) == 0) positions.col(i) = 2 * random_direction(random);
     const Positions begin = positions;
@@ -91,7 +91,7 @@ TEST_CASE("contact: solids that are passed over change no bit", "[contact]") {
     positions += h * velocities;
     Positions expected_positions = positions;
     Positions expected_velocities = velocities;
-    const auto touches = stage.resolve(begin, is_exempt, positions, velocities);
+    const auto touches = pass.resolve(begin, is_exempt, positions, velocities);
     const auto expected = fresh.resolve(begin, is_exempt, expected_positions, expected_velocities);
     REQUIRE(touches.size() == expected.size());
     REQUIRE((positions == expected_positions && velocities == expected_velocities));
@@ -110,11 +110,11 @@ TEST_CASE("contact: a vertex that keeps its distance is looked at once", "[conta
     const std::vector<Pose> begin(2, Pose{Mat3::Identity(), 0.01 * k * velocity});
     const std::vector<Pose> end(2, Pose{Mat3::Identity(), 0.01 * (k + 1) * velocity});
     budget.begin_substep(begin, end);
-    budget.look_at_near(VertexId(0), Vec3(1, 0, 0) + 0.01 * k * velocity,
-                        Vec3(1, 0, 0) + 0.01 * (k + 1) * velocity, [&](std::size_t solid) {
-                          ++n_looks;
-                          return solid == 0 ? 0.8 : 1.9;
-                        });
+    budget.visit_near(VertexId(0), Vec3(1, 0, 0) + 0.01 * k * velocity,
+                      Vec3(1, 0, 0) + 0.01 * (k + 1) * velocity, [&](std::size_t solid) {
+                        ++n_looks;
+                        return solid == 0 ? 0.8 : 1.9;
+                      });
   }
   CHECK(n_looks == 2);
 }
@@ -134,7 +134,7 @@ TEST_CASE("contact: a vertex is looked at when its way has used its distance up"
     const double end = 0.01 * (k + 1);
     budget.begin_substep(std::vector<Pose>{pose(begin, 1), pose(begin, -1)},
                          std::vector<Pose>{pose(end, 1), pose(end, -1)});
-    budget.look_at_near(VertexId(0), {2 - begin, 0, 0}, {2 - end, 0, 0}, [&](std::size_t solid) {
+    budget.visit_near(VertexId(0), {2 - begin, 0, 0}, {2 - end, 0, 0}, [&](std::size_t solid) {
       if (solid == 0) looks.push_back(k);
       return 0.505;
     });
@@ -163,7 +163,7 @@ TEST_CASE("contact: a vertex is looked at when the turn of a solid asks for it",
     if (next_look == 0 && distance < moved) next_look = k;
     bool looked = false;
     budget.begin_substep(std::vector<Pose>{pose(k)}, std::vector<Pose>{pose(k + 1)});
-    budget.look_at_near(VertexId(0), {0, 5, speed * k}, {0, 5, speed * (k + 1)}, [&](std::size_t) {
+    budget.visit_near(VertexId(0), {0, 5, speed * k}, {0, 5, speed * (k + 1)}, [&](std::size_t) {
       looked = true;
       return distance;
     });
@@ -204,7 +204,7 @@ TEST_CASE("contact: few of sixteen walking limbs are looked at", "[contact]") {
     budget.begin_substep(begin, end);
     for (int i = 0; i < n_vertices; ++i) {
       const Vec3 from = skirt.col(i) + k * h * kWalk;
-      budget.look_at_near(VertexId(i), from, from + h * kWalk, [&](std::size_t solid) {
+      budget.visit_near(VertexId(i), from, from + h * kWalk, [&](std::size_t solid) {
         ++n_looks;
         return gap(solids[solid], from).distance;
       });
@@ -218,12 +218,12 @@ TEST_CASE("contact: few of sixteen walking limbs are looked at", "[contact]") {
 TEST_CASE("contact: rounded cones allocate for a new vertex only", "[contact]") {
   if (!counts_allocations()) return;
   Random random(51);
-  ContactStage stage(random_solids(random), {0.001, {}});
+  ContactPass pass(random_solids(random), {0.001, {}});
   Particle particle{{0.5, 0.05, 0}, {-20, 0, 0}};
-  step(stage, Vec3(-100, -kGravity, 0), 0, 1 / 60.0, particle);
+  step(pass, Vec3(-100, -kGravity, 0), 0, 1 / 60.0, particle);
   CHECK(allocations_in([&] {
           for (int k = 1; k < 50; ++k)
-            step(stage, Vec3(-100, -kGravity, 0), k / 60.0, 1 / 60.0, particle);
+            step(pass, Vec3(-100, -kGravity, 0), k / 60.0, 1 / 60.0, particle);
         }) == 0);
 }
 

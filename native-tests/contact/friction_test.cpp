@@ -1,4 +1,4 @@
-#include "core/contact/contact_stage.h"
+#include "core/contact/contact_pass.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -11,12 +11,12 @@ namespace {}  // namespace
 // Falling 0.1 m at 4 m/s takes 1/4 of the substep; friction 0.5 then takes 2 of the 5 m/s along the
 // floor.
 TEST_CASE("contact: friction shortens the path after the impact only", "[contact]") {
-  ContactStage stage({floor_collider(0.5)}, {});
-  stage.begin_substep(0, 0.1);
+  ContactPass pass({floor_collider(0.5)}, {});
+  pass.begin_substep(0, 0.1);
   const Vec3 begin{0, 0.1, 0};
   Vec3 velocity{5, -4, 0};
   Vec3 position = begin + 0.1 * velocity;
-  CHECK(resolve(stage, VertexId(0), begin, position, velocity));
+  CHECK(resolve(pass, VertexId(0), begin, position, velocity));
   CHECK((velocity - Vec3(3, 0, 0)).norm() < 1e-14);
   CHECK((position - Vec3(0.025 * 5 + 0.075 * 3, 0, 0)).norm() < 1e-14);
 }
@@ -29,10 +29,10 @@ TEST_CASE("contact: a block on an incline accelerates by g (sin t - mu cos t)", 
   Collider incline = floor_collider(friction);
   const Vec3 downhill(std::cos(slope), -std::sin(slope), 0);
   incline.shape = Plane{Vec3::Zero(), Vec3(std::sin(slope), std::cos(slope), 0)};
-  ContactStage stage({incline}, {});
+  ContactPass pass({incline}, {});
   Particle block{Vec3::Zero(), Vec3::Zero()};
   const int n_steps = static_cast<int>(std::lround(2 / h));
-  for (int k = 0; k < n_steps; ++k) step(stage, -kGravity * kUp, k * h, h, block);
+  for (int k = 0; k < n_steps; ++k) step(pass, -kGravity * kUp, k * h, h, block);
   const double acceleration = kGravity * (std::sin(slope) - friction * std::cos(slope));
   CHECK((block.velocity - 2 * acceleration * downhill).norm() < 1e-10);
   // Symplectic Euler sums h v over the ends of the steps: a t (t + h) / 2.
@@ -45,12 +45,12 @@ TEST_CASE("contact: below the friction angle nothing creeps", "[contact]") {
   CAPTURE(h, slope);
   Collider incline = floor_collider(0.3);
   incline.shape = Plane{{0.1, 0.2, 0.3}, Vec3(std::sin(slope), std::cos(slope), 0)};
-  ContactStage stage({incline}, {0.0005, {}});
+  ContactPass pass({incline}, {0.0005, {}});
   const Plane plane = std::get<Plane>(incline.shape);
   const Vec3 start = plane.point + 0.0005 * plane.normal + Vec3(0, 0, 0.7);
   Particle block{start, Vec3::Zero()};
   const int n_steps = static_cast<int>(std::lround(10 / h));
-  for (int k = 0; k < n_steps; ++k) step(stage, -kGravity * kUp, k * h, h, block);
+  for (int k = 0; k < n_steps; ++k) step(pass, -kGravity * kUp, k * h, h, block);
   CHECK(block.velocity == Vec3(0, 0, 0));
   CHECK((block.position - start).norm() < 1e-15);
 }
@@ -62,14 +62,14 @@ TEST_CASE("contact: friction obeys Coulomb's bound and never adds energy", "[con
     Collider ball = ball_collider({0, 0, 0}, 0.5, friction);
     const Vec3 velocity_of_ball = 3 * random_direction(random);
     ball.motion = steady_motion(velocity_of_ball);
-    ContactStage stage({ball}, {});
-    stage.begin_substep(0, 0.1);
+    ContactPass pass({ball}, {});
+    pass.begin_substep(0, 0.1);
     const Vec3 side = random_direction(random);
     const Vec3 begin = 0.6 * side;
     const Vec3 velocity_before = velocity_of_ball + 5 * (random_direction(random) - side);
     Vec3 position = begin + 0.1 * velocity_before;
     Vec3 velocity = velocity_before;
-    if (!resolve(stage, VertexId(0), begin, position, velocity)) continue;
+    if (!resolve(pass, VertexId(0), begin, position, velocity)) continue;
     // The change is in the plane of normal and slip; its normal part is what stopped the approach.
     const SweptSphere swept{0.1 * velocity_of_ball, 0.5, 0.1 * velocity_of_ball};
     const Vec3 normal = first_impact(swept, begin, begin + 0.1 * velocity_before, 0)->normal;
@@ -88,38 +88,38 @@ TEST_CASE("contact: a belt drags by mu g until the vertex rides along", "[contac
   const double h = GENERATE(1.0 / 60, 1.0 / 1000);
   Collider belt = floor_collider(0.4);
   belt.motion = steady_motion({2, 0, 0});
-  ContactStage stage({belt}, {});
+  ContactPass pass({belt}, {});
   Particle particle{{0, 0, 0}, {0, 0, 0}};
   const int n_slip = static_cast<int>(std::lround(0.4 / h));  // it rides after 2 / (0.4 g) = 0.51 s
-  for (int k = 0; k < n_slip; ++k) step(stage, -kGravity * kUp, k * h, h, particle);
+  for (int k = 0; k < n_slip; ++k) step(pass, -kGravity * kUp, k * h, h, particle);
   CHECK(particle.velocity.x() == Approx(0.4 * kGravity * n_slip * h).epsilon(1e-10));
   const int n_ride = static_cast<int>(std::lround(0.6 / h));
-  for (int k = n_slip; k < n_ride; ++k) step(stage, -kGravity * kUp, k * h, h, particle);
+  for (int k = n_slip; k < n_ride; ++k) step(pass, -kGravity * kUp, k * h, h, particle);
   CHECK((particle.velocity - Vec3(2, 0, 0)).norm() < 1e-12);
   const double x = particle.position.x();
-  for (int k = n_ride; k < 2 * n_ride; ++k) step(stage, -kGravity * kUp, k * h, h, particle);
+  for (int k = n_ride; k < 2 * n_ride; ++k) step(pass, -kGravity * kUp, k * h, h, particle);
   CHECK(particle.position.x() - x == Approx(2 * n_ride * h).epsilon(1e-10));
 }
 
 TEST_CASE("contact: a ball moving sideways drags what lies on it", "[contact]") {
   Collider ball = ball_collider({0, -0.5, 0}, 0.5, 0.4);
   ball.motion = steady_motion({0.05, 0, 0});
-  ContactStage stage({ball}, {});
+  ContactPass pass({ball}, {});
   Particle particle{{0, 0, 0}, {0, 0, 0}};
   const double h = 1.0 / 1000;
-  for (int k = 0; k < 200; ++k) step(stage, -kGravity * kUp, k * h, h, particle);
+  for (int k = 0; k < 200; ++k) step(pass, -kGravity * kUp, k * h, h, particle);
   CHECK((particle.velocity - Vec3(0.05, 0, 0)).norm() < 1e-4);
 }
 
 // Energy and the centripetal force part a frictionless vertex from a sphere where cos = 2/3.
 TEST_CASE("contact: a vertex leaves a smooth ball at the angle acos 2/3", "[contact]") {
   const auto leaving_cosine = [](double h) {
-    ContactStage stage({ball_collider({0, 0, 0}, 1, 0)}, {});
+    ContactPass pass({ball_collider({0, 0, 0}, 1, 0)}, {});
     Particle particle{{std::sin(0.05), std::cos(0.05), 0}, {0, 0, 0}};
     double cosine = 1;
     for (int k = 0; particle.position.y() > 0; ++k) {
       const Vec3 begin = particle.position;
-      if (step(stage, -kGravity * kUp, k * h, h, particle)) cosine = begin.normalized().y();
+      if (step(pass, -kGravity * kUp, k * h, h, particle)) cosine = begin.normalized().y();
     }
     return cosine;
   };

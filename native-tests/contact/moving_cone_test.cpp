@@ -51,14 +51,14 @@ TEST_CASE("contact: a limb is never penetrated at 50 m/s, however it turns", "[c
     const Vec3 velocity = 10 * random_direction(random);
     collider.motion = spin > 0 ? turning_motion(spin * random_direction(random), velocity)
                                : steady_motion(velocity);
-    ContactStage stage({collider}, {0.001, {}});
+    ContactPass pass({collider}, {0.001, {}});
     // Aimed at the side, at the ends, and past them.
     const Vec3 aim = random.uniform(-0.4, 0.4) * kUp + 0.1 * random_direction(random);
     Particle particle{0.6 * random_direction(random), Vec3::Zero()};
     particle.velocity = 50 * (aim - particle.position).normalized();
     for (int k = 0; k < 4; ++k) {
       const Vec3 begin = particle.position;
-      n_hits += step(stage, -kGravity * kUp, k * h, h, particle);
+      n_hits += step(pass, -kGravity * kUp, k * h, h, particle);
       REQUIRE(height(collider, particle.position, (k + 1) * h) >= 0.001 - 1e-13);
       // Nor has the way there led through, straight in the limb's own frame.
       const Vec3 start = collider.motion.pose(k * h).inverse() * begin;
@@ -75,14 +75,14 @@ TEST_CASE("contact: a vertex inside of a limb is put out without gaining speed",
   for (int trial = 0; trial < 500; ++trial) {
     const RoundedCone cone = random_cone(random);
     const Collider collider = cone_collider(cone, 0.3);
-    ContactStage stage({collider}, {});
-    stage.begin_substep(0, 0.01);
+    ContactPass pass({collider}, {});
+    pass.begin_substep(0, 0.01);
     const double share = random.uniform(0, 1);
     const Vec3 begin =
         cone.centre_a + share * (cone.centre_b - cone.centre_a) + 0.01 * random_direction(random);
     Vec3 velocity = random_direction(random);
     Vec3 position = begin + 0.01 * velocity;
-    CHECK(resolve(stage, kVertex, begin, position, velocity));
+    CHECK(resolve(pass, kVertex, begin, position, velocity));
     CHECK(height(collider, position, 0) >= -1e-13);
     CHECK(velocity.norm() <= 1 + 1e-14);
   }
@@ -91,11 +91,11 @@ TEST_CASE("contact: a vertex inside of a limb is put out without gaining speed",
 TEST_CASE("contact: on a limb that lies still a vertex comes to rest and stays", "[contact]") {
   const double h = GENERATE(1.0 / 60, 1.0 / 1000);
   Collider collider = cone_collider(incline(0.2), 0.3);
-  ContactStage stage({collider}, {0.001, {}});
+  ContactPass pass({collider}, {0.001, {}});
   Particle particle{{0, 0.1, 0}, {0, 0, 0}};
   Vec3 settled = Vec3::Zero();
   for (int k = 0; k < 2000; ++k) {
-    step(stage, -kGravity * kUp, k * h, h, particle);
+    step(pass, -kGravity * kUp, k * h, h, particle);
     if (k == 1000) settled = particle.position;
     if (k >= 1000) {
       REQUIRE(particle.velocity == Vec3(0, 0, 0));
@@ -112,10 +112,10 @@ TEST_CASE("contact: on a moving incline of a limb friction keeps to Coulomb's co
   const Vec3 velocity{1, 0.5, -0.3};
   Collider collider = cone_collider(incline(slope), 0.3);
   collider.motion = steady_motion(velocity);
-  ContactStage stage({collider}, {});
+  ContactPass pass({collider}, {});
   Particle block{Vec3::Zero(), velocity};
   const int n_steps = static_cast<int>(std::lround(2 / h));
-  for (int k = 0; k < n_steps; ++k) step(stage, -kGravity * kUp, k * h, h, block);
+  for (int k = 0; k < n_steps; ++k) step(pass, -kGravity * kUp, k * h, h, block);
   const double acceleration = std::max(0.0, kGravity * (std::sin(slope) - 0.3 * std::cos(slope)));
   const Vec3 downhill(std::cos(slope), -std::sin(slope), 0);
   CHECK((block.velocity - velocity - 2 * acceleration * downhill).norm() < 1e-9);
@@ -133,11 +133,11 @@ TEST_CASE("contact: a vertex that sticks to a turning board rides along", "[cont
   for (const double share : {0.3, 0.99, 1.05}) {
     Collider collider = cone_collider(board(), 0.4);
     collider.motion = turning_motion(spin * kUp, Vec3::Zero());
-    ContactStage stage({collider}, {});
+    ContactPass pass({collider}, {});
     const Vec3 start{0.6 * share * limit, 0, 0.8 * share * limit};
     Particle particle{start, (start - collider.motion.pose(h).inverse() * start) / h};
     const int n_steps = static_cast<int>(std::lround(1 / h));
-    for (int k = 0; k < n_steps; ++k) step(stage, -kGravity * kUp, k * h, h, particle);
+    for (int k = 0; k < n_steps; ++k) step(pass, -kGravity * kUp, k * h, h, particle);
     const double off = (particle.position - collider.motion.pose(n_steps * h) * start).norm();
     CAPTURE(share, off);
     CHECK((share < 1 ? off < 1e-12 : off > 1e-4));
@@ -149,11 +149,11 @@ TEST_CASE("contact: a smooth board that turns leaves the way along it", "[contac
   const double fall = GENERATE(0.0, 0.05);  // [m], of the 0.1 m that the vertex comes down
   Collider collider = cone_collider(board(), 0);
   collider.motion = turning_motion(10 * kUp, Vec3::Zero());
-  ContactStage stage({collider}, {});
-  stage.begin_substep(0, 0.1);
+  ContactPass pass({collider}, {});
+  pass.begin_substep(0, 0.1);
   Vec3 velocity{0.5, -1, 0.3};
   Vec3 position = Vec3(0.2, fall, 0.1) + 0.1 * velocity;
-  CHECK(resolve(stage, kVertex, {0.2, fall, 0.1}, position, velocity));
+  CHECK(resolve(pass, kVertex, {0.2, fall, 0.1}, position, velocity));
   CHECK((position - Vec3(0.25, 0, 0.13)).norm() < 1e-14);
   CHECK((velocity - Vec3(0.5, 0, 0.3)).norm() < 1e-13);
 }
@@ -161,12 +161,12 @@ TEST_CASE("contact: a smooth board that turns leaves the way along it", "[contac
 TEST_CASE("contact: a spinning ball drags what touches it along its side", "[contact]") {
   Collider ball = ball_collider({0, 0, 0}, 0.5, 0.4);
   ball.motion = turning_motion({0, 0, 10}, Vec3::Zero());
-  ContactStage stage({ball}, {});
+  ContactPass pass({ball}, {});
   const double h = 1e-4;
-  stage.begin_substep(0, h);
+  pass.begin_substep(0, h);
   Vec3 velocity{0, -1, 0};
   Vec3 position = 0.5 * kUp + h * velocity;
-  CHECK(resolve(stage, kVertex, 0.5 * kUp, position, velocity));
+  CHECK(resolve(pass, kVertex, 0.5 * kUp, position, velocity));
   // The top goes to -x; Coulomb's bound lets 0.4 of the normal change follow.
   CHECK(velocity.x() == Approx(-0.4).epsilon(0.01));
   CHECK(std::abs(velocity.z()) < 1e-15);
@@ -176,10 +176,10 @@ TEST_CASE("contact: a spinning ball drags what touches it along its side", "[con
 TEST_CASE("contact: a floor that tips lifts what lies on it", "[contact]") {
   Collider ground = floor_collider(1e9);
   ground.motion = turning_motion({0, 0, 2}, Vec3::Zero());
-  ContactStage stage({ground}, {});
+  ContactPass pass({ground}, {});
   Particle particle{{0.5, 0, 0}, {0, 0, 0}};
   const double h = 1.0 / 240;
-  for (int k = 0; k < 60; ++k) step(stage, -kGravity * kUp, k * h, h, particle);
+  for (int k = 0; k < 60; ++k) step(pass, -kGravity * kUp, k * h, h, particle);
   CHECK((particle.position - 0.5 * Vec3(std::cos(0.5), std::sin(0.5), 0)).norm() < 1e-12);
 }
 
@@ -192,11 +192,11 @@ TEST_CASE("contact: of two limbs that close in, the last to act keeps the vertex
   std::vector<Collider> limbs{cone_collider(limb_a, 0.3), cone_collider(limb_b, 0.3)};
   limbs[0].motion = steady_motion({1, 0, 0});
   limbs[1].motion = steady_motion({-1, 0, 0});
-  ContactStage stage(limbs, {});
+  ContactPass pass(limbs, {});
   Particle particle{{0.25, 0, aside}, {0, 0, 0}};
   const double h = 1.0 / 60;
   for (int k = 0; k < 15; ++k) {
-    step(stage, Vec3::Zero(), k * h, h, particle);
+    step(pass, Vec3::Zero(), k * h, h, particle);
     const double time = (k + 1) * h;
     const double height_a = height(limbs[0], particle.position, time);
     const double height_b = height(limbs[1], particle.position, time);
@@ -206,7 +206,7 @@ TEST_CASE("contact: of two limbs that close in, the last to act keeps the vertex
     REQUIRE(particle.velocity.norm() < 2 / 0.04);
     REQUIRE((particle.position - Vec3(0.25, 0, 0)).norm() < 1);
   }
-  CHECK((stage.n_unresolved() > 0) == (aside < 0.01));
+  CHECK((pass.n_unresolved() > 0) == (aside < 0.01));
 }
 
 TEST_CASE("contact: between limbs nearer than both clearances a vertex is outside of both",
@@ -220,21 +220,21 @@ TEST_CASE("contact: between limbs nearer than both clearances a vertex is outsid
   std::vector<Collider> limbs{cone_collider(limb_a, 0.3), cone_collider(limb_b, 0.3)};
   limbs[0].motion = steady_motion({way, 0, 0});
   limbs[1].motion = steady_motion({-way, 0, 0});
-  ContactStage stage(limbs, {0.01, {}});
+  ContactPass pass(limbs, {0.01, {}});
   Particle particle{{0.25, 0, aside}, {0, 0, 0}};
   const double h = 1.0 / 60;
   for (int k = 0; k < 60; ++k) {
-    step(stage, Vec3::Zero(), k * h, h, particle);
+    step(pass, Vec3::Zero(), k * h, h, particle);
     REQUIRE(height(limbs[0], particle.position, (k + 1) * h) >= 0);
     REQUIRE(height(limbs[1], particle.position, (k + 1) * h) >= 0);
   }
-  CHECK(stage.n_unresolved() > 0);
+  CHECK(pass.n_unresolved() > 0);
 }
 
 TEST_CASE("contact: every vertex keeps the clearance of its own faces", "[contact]") {
   const Collider collider = GENERATE(ball_collider({0, 0, 0}, 0.1, 0), cone_collider(limb(), 0));
   const Eigen::Vector3d face_radii(0.01, 0.03, 0);
-  ContactStage graded({collider}, {0.001, face_radii});
+  ContactPass graded({collider}, {0.001, face_radii});
   graded.begin_substep(0, 1);
   for (const VertexId v : {VertexId(0), VertexId(1), VertexId(2)}) {
     Vec3 position{0, 0, 0.05};
@@ -258,8 +258,8 @@ TEST_CASE("contact: what the faces of other vertices need changes nothing", "[co
   const std::vector<Collider> solids{cone_collider(limb(), 0.3), cone_collider(upright, 0.2),
                                      ball_collider({0.15, -0.3, 0}, 0.15, 0.3),
                                      floor_collider(0.3)};
-  ContactStage alone(solids, {0.001, Eigen::VectorXd::Constant(1, 0.01)});
-  ContactStage among_others(solids, {0.001, Eigen::Vector3d(0.01, 0.05, 0)});
+  ContactPass alone(solids, {0.001, Eigen::VectorXd::Constant(1, 0.01)});
+  ContactPass among_others(solids, {0.001, Eigen::Vector3d(0.01, 0.05, 0)});
   alone.begin_substep(0, 0.1);
   among_others.begin_substep(0, 0.1);
   for (int trial = 0; trial < 500; ++trial) {
@@ -281,9 +281,9 @@ TEST_CASE("contact: a face held by its corners does not cut a rounded cone", "[c
   const double circumradius = 0.04;
   for (int trial = 0; trial < 300; ++trial) {
     const Collider collider = cone_collider(random_cone(random), 0);
-    ContactStage stage({collider}, {0.0005, Eigen::VectorXd::Constant(1, circumradius)});
-    const SweptCone held_off = std::get<SweptCone>(
-        swept(collider.shape, stage.clearance(collider, kVertex), Vec3::Zero()));
+    ContactPass pass({collider}, {0.0005, Eigen::VectorXd::Constant(1, circumradius)});
+    const SweptCone held_off =
+        std::get<SweptCone>(swept(collider.shape, pass.clearance(collider, kVertex), Vec3::Zero()));
     const Vec3 normal = random_direction(random);
     const Vec3 across = normal.unitOrthogonal();
     const Vec3 along = normal.cross(across);
@@ -317,8 +317,8 @@ TEST_CASE("contact: a quad with threads along a limb and around it does not cut 
     const double radius = random.uniform(0.03, 0.2);
     const Collider collider = cone_collider({{0, -1, 0}, {0, 1, 0}, radius, radius}, 0);
     const double half_width = random.uniform(0.005, 0.05);
-    const ContactStage stage({collider}, {0.0005, Eigen::VectorXd::Constant(1, half_width)});
-    const double held = radius + stage.clearance(collider, kVertex).at_a;
+    const ContactPass pass({collider}, {0.0005, Eigen::VectorXd::Constant(1, half_width)});
+    const double held = radius + pass.clearance(collider, kVertex).at_a;
     const double distance = std::sqrt(held * held - half_width * half_width);
     double least = std::numeric_limits<double>::infinity();
     for (int sample = 0; sample < 50; ++sample) {
@@ -335,25 +335,25 @@ TEST_CASE("contact: a quad with threads along a limb and around it does not cut 
 TEST_CASE("contact: penetration is the deepest vertex below a bare surface", "[contact]") {
   std::vector<Collider> solids{cone_collider(limb(), 0.3), ball_collider({0, 1, 0}, 0.2, 0.3)};
   solids[0].motion = turning_motion({0, 0, 1}, {0.1, 0, 0});
-  const ContactStage stage(solids, {0.01, {}});
+  const ContactPass pass(solids, {0.01, {}});
   const Pose pose = solids[0].motion.pose(0.7);
   Positions places(3, 4);
   places.col(0) = pose * Vec3(0.5, 0, 0);
   places.col(1) = pose * Vec3(0, -0.37, 0);  // 0.03 above the lower end
   places.col(2) = Vec3(0, 1.15, 0);          // 0.05 below the ball's top
   places.col(3) = Vec3(0, 1.205, 0);         // 0.005 outside, within the clearance
-  const Penetration found = stage.penetration(places, 0.7);
+  const Penetration found = pass.penetration(places, 0.7);
   CHECK(found.n_inside == 2);
   CHECK(found.deepest == VertexId(2));
   CHECK(found.depth == Approx(0.05));
-  CHECK(stage.penetration(places.leftCols(1), 0.7).n_inside == 0);
-  CHECK_FALSE(stage.penetration(places.leftCols(1), 0.7).deepest.valid());
+  CHECK(pass.penetration(places.leftCols(1), 0.7).n_inside == 0);
+  CHECK_FALSE(pass.penetration(places.leftCols(1), 0.7).deepest.valid());
 }
 
 TEST_CASE("contact: rounded cones that make no sense are our bug", "[contact]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto make = [](const RoundedCone& cone) {
-    return ContactStage({cone_collider(cone, 0.3)}, {});
+    return ContactPass({cone_collider(cone, 0.3)}, {});
   };
   CHECK_NOTHROW(make(limb()));
   RoundedCone wrong = limb();

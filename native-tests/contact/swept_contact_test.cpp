@@ -23,11 +23,11 @@ TEST_CASE("contact: a plane is never penetrated at 50 m/s", "[contact]") {
     const Vec3 normal = random_direction(random);
     wall.shape = Plane{0.3 * random_direction(random), normal};
     wall.motion = steady_motion(speed_of_plane * random_direction(random));
-    ContactStage stage({wall}, {0.001, {}});
+    ContactPass pass({wall}, {0.001, {}});
     Particle particle{std::get<Plane>(wall.shape).point + random.uniform(0.002, 0.5) * normal,
                       50 * random_direction(random)};
     for (int k = 0; k < 8; ++k) {
-      step(stage, -kGravity * kUp, k * h, h, particle);
+      step(pass, -kGravity * kUp, k * h, h, particle);
       REQUIRE(height(wall, particle.position, (k + 1) * h) >= 0.001 - 10 * kRoundingDepth);
     }
   }
@@ -43,7 +43,7 @@ TEST_CASE("contact: a sphere is never penetrated at 50 m/s", "[contact]") {
   for (int trial = 0; trial < 400; ++trial) {
     Collider ball = ball_collider(0.2 * random_direction(random), radius, random.uniform(0, 1));
     ball.motion = steady_motion(speed_of_sphere * random_direction(random));
-    ContactStage stage({ball}, {});
+    ContactPass pass({ball}, {});
     const Vec3 centre = std::get<Sphere>(ball.shape).centre;
     Particle particle{centre + random.uniform(1.01, 3) * radius * random_direction(random),
                       Vec3::Zero()};
@@ -53,7 +53,7 @@ TEST_CASE("contact: a sphere is never penetrated at 50 m/s", "[contact]") {
     particle.velocity = 50 * (aim - particle.position).normalized();
     for (int k = 0; k < 4; ++k) {
       const Vec3 begin = particle.position;
-      n_hits += step(stage, -kGravity * kUp, k * h, h, particle);
+      n_hits += step(pass, -kGravity * kUp, k * h, h, particle);
       REQUIRE(height(ball, particle.position, (k + 1) * h) >= -10 * kRoundingDepth);
       // Nor has the way there led through: seen from the sphere it is straight before and after the
       // correction.
@@ -97,8 +97,8 @@ TEST_CASE("contact: a vertex that begins inside is put out without gaining speed
   const Collider ground = floor_collider(0.3);
   for (int trial = 0; trial < 300; ++trial) {
     const Collider& collider = trial % 2 == 0 ? ball : ground;
-    ContactStage stage({collider}, {});
-    stage.begin_substep(0, 0.01);
+    ContactPass pass({collider}, {});
+    pass.begin_substep(0, 0.01);
     const Vec3 begin =
         trial % 2 == 0
             ? Vec3(Vec3(0.1, 0.2, 0.3) + random.uniform(0, 0.49) * random_direction(random))
@@ -106,7 +106,7 @@ TEST_CASE("contact: a vertex that begins inside is put out without gaining speed
     Vec3 velocity = 2 * random_direction(random);
     const double speed = velocity.norm();
     Vec3 position = begin + 0.01 * velocity;
-    resolve(stage, VertexId(0), begin, position, velocity);
+    resolve(pass, VertexId(0), begin, position, velocity);
     CHECK(height(collider, position, 0.01) >= -kRoundingDepth);
     CHECK(velocity.norm() <= speed * (1 + 1e-15));
   }
@@ -114,11 +114,11 @@ TEST_CASE("contact: a vertex that begins inside is put out without gaining speed
 
 TEST_CASE("contact: a vertex in the very centre of a sphere gets out", "[contact]") {
   const Collider ball = ball_collider({0, 0, 0}, 0.5, 0.3);
-  ContactStage stage({ball}, {});
-  stage.begin_substep(0, 0.01);
+  ContactPass pass({ball}, {});
+  pass.begin_substep(0, 0.01);
   Vec3 position = Vec3::Zero();
   Vec3 velocity = Vec3::Zero();
-  CHECK(resolve(stage, VertexId(0), Vec3::Zero(), position, velocity));
+  CHECK(resolve(pass, VertexId(0), Vec3::Zero(), position, velocity));
   CHECK(height(ball, position, 0.01) == Approx(0).margin(kRoundingDepth));
 }
 
@@ -127,13 +127,13 @@ TEST_CASE("contact: a fast ball takes resting vertices with it", "[contact]") {
   const double speed = 60;  // [m/s]: 2 m in the longer substep, past a vertex 1 m away
   Collider ball = ball_collider({-1, 0, 0}, 0.1, 0);
   ball.motion = steady_motion({speed, 0, 0});
-  ContactStage stage({ball}, {});
+  ContactPass pass({ball}, {});
   Particle ahead{{0, 0, 0}, {0, 0, 0}};
   Particle aside{{0, 0.08, 0}, {0, 0, 0}};
   const int n_steps = static_cast<int>(std::lround(0.1 / h));
   for (int k = 0; k < n_steps; ++k) {
-    step(stage, Vec3::Zero(), k * h, h, ahead);
-    step(stage, Vec3::Zero(), k * h, h, aside);
+    step(pass, Vec3::Zero(), k * h, h, ahead);
+    step(pass, Vec3::Zero(), k * h, h, aside);
     REQUIRE(height(ball, ahead.position, (k + 1) * h) >= -10 * kRoundingDepth);
     REQUIRE(height(ball, aside.position, (k + 1) * h) >= -10 * kRoundingDepth);
   }
@@ -145,14 +145,14 @@ TEST_CASE("contact: a fast ball takes resting vertices with it", "[contact]") {
 
 TEST_CASE("contact: the solid that is met first acts first", "[contact]") {
   const Collider ball = ball_collider({0, 0.3, 0}, 0.3, 0);
-  ContactStage ball_alone({ball}, {});
-  ContactStage floor_and_ball({floor_collider(0), ball}, {});
+  ContactPass ball_alone({ball}, {});
+  ContactPass floor_and_ball({floor_collider(0), ball}, {});
   const Vec3 begin(0.1, 1, 0);
   const Vec3 down(0, -14, 0);
-  const auto result = [&](ContactStage& stage) {
+  const auto result = [&](ContactPass& pass) {
     Particle particle{begin + 0.1 * down, down};
-    stage.begin_substep(0, 0.1);
-    CHECK(resolve(stage, VertexId(0), begin, particle.position, particle.velocity));
+    pass.begin_substep(0, 0.1);
+    CHECK(resolve(pass, VertexId(0), begin, particle.position, particle.velocity));
     return particle;
   };
   // Thrown off the ball's side before it could reach the floor.
@@ -166,7 +166,7 @@ TEST_CASE("contact: the gap between ball and floor is left sideways", "[contact]
   CAPTURE(ball_first, speed);
   const Collider ball = ball_collider({0, 0.3, 0}, 0.3, 0.3);
   const Collider ground = floor_collider(0.3);
-  ContactStage stage(
+  ContactPass pass(
       ball_first ? std::vector<Collider>{ball, ground} : std::vector<Collider>{ground, ball},
       {0.002, Eigen::VectorXd::Constant(1, 0.01)});
   Random random(10);
@@ -181,16 +181,15 @@ TEST_CASE("contact: the gap between ball and floor is left sideways", "[contact]
           Vec3(-100, -kGravity, 0) / 60;  // pressed into the gap as springs would press it
       particle.position += particle.velocity / 60;
       const double speed_before = particle.velocity.norm();
-      stage.begin_substep(k / 60.0, (k + 1) / 60.0);
-      resolve(stage, VertexId(0), begin, particle.position, particle.velocity);
-      REQUIRE(height(ball, particle.position, 0) >=
-              stage.clearance(ball, VertexId(0)).at_a - 1e-12);
+      pass.begin_substep(k / 60.0, (k + 1) / 60.0);
+      resolve(pass, VertexId(0), begin, particle.position, particle.velocity);
+      REQUIRE(height(ball, particle.position, 0) >= pass.clearance(ball, VertexId(0)).at_a - 1e-12);
       REQUIRE(height(ground, particle.position, 0) >=
-              stage.clearance(ground, VertexId(0)).at_a - 1e-12);
+              pass.clearance(ground, VertexId(0)).at_a - 1e-12);
       REQUIRE(particle.velocity.norm() <= speed_before * (1 + 1e-14));
     }
   }
-  CHECK(stage.n_unresolved() == 0);
+  CHECK(pass.n_unresolved() == 0);
 }
 
 TEST_CASE("contact: a groove leaves only the motion along it", "[contact]") {
@@ -201,12 +200,12 @@ TEST_CASE("contact: a groove leaves only the motion along it", "[contact]") {
   std::vector<Collider> walls(2, floor_collider(0));
   walls[0].shape = Plane{Vec3::Zero(), Vec3(std::sin(slope), std::cos(slope), 0)};
   walls[1].shape = Plane{Vec3::Zero(), Vec3(-std::sin(slope), std::cos(slope), 0)};
-  ContactStage stage(walls, {});
-  stage.begin_substep(0, 0.1);
+  ContactPass pass(walls, {});
+  pass.begin_substep(0, 0.1);
   Vec3 velocity(sideways, -20, 3);
   const Vec3 begin(0.01, 0.5, 0);
   Vec3 position = begin + 0.1 * velocity;
-  CHECK(resolve(stage, VertexId(0), begin, position, velocity));
+  CHECK(resolve(pass, VertexId(0), begin, position, velocity));
   CHECK((velocity - Vec3(0, 0, 3)).norm() < 1e-13);
   CHECK((position - Vec3(0, 0, 0.3)).norm() < 1e-13);
 }
@@ -216,15 +215,15 @@ TEST_CASE("contact: a corner of three walls holds a vertex", "[contact]") {
   walls[0].shape = Plane{Vec3::Zero(), Vec3(1, 0.2, 0).normalized()};
   walls[1].shape = Plane{Vec3::Zero(), Vec3(0, 1, 0.2).normalized()};
   walls[2].shape = Plane{Vec3::Zero(), Vec3(0.2, 0, 1).normalized()};
-  ContactStage stage(walls, {});
+  ContactPass pass(walls, {});
   Particle particle{{1, 1, 1}, Vec3(-5, -6, -7)};
   for (int k = 0; k < 100; ++k) {
-    step(stage, Vec3(-10, -10, -10), k / 60.0, 1 / 60.0, particle);
+    step(pass, Vec3(-10, -10, -10), k / 60.0, 1 / 60.0, particle);
     for (const Collider& wall : walls) REQUIRE(height(wall, particle.position, 0) >= -1e-12);
   }
   CHECK(particle.position.norm() < 1e-3);
   CHECK(particle.velocity.norm() < 0.05);  // each step adds 0.29 m/s
-  CHECK(stage.n_unresolved() == 0);
+  CHECK(pass.n_unresolved() == 0);
 }
 
 TEST_CASE("contact: far from the origin, rounding does not count as a contact", "[contact]") {
@@ -238,12 +237,12 @@ TEST_CASE("contact: far from the origin, rounding does not count as a contact", 
     std::vector<Collider> solids(2, floor_collider(0.3));
     solids[0].shape = Plane{place, normal_a};
     solids[1] = ball_collider(place - 0.3 * normal_b, 0.3, 0.3);
-    ContactStage stage(solids, {});
+    ContactPass pass(solids, {});
     Particle particle{place + 0.5 * (normal_a + normal_b), {0, 0, 0}};
     for (int k = 0; k < 30; ++k) {
-      step(stage, -20 * (normal_a + normal_b), k / 60.0, 1 / 60.0, particle);
+      step(pass, -20 * (normal_a + normal_b), k / 60.0, 1 / 60.0, particle);
     }
-    n_unresolved += stage.n_unresolved();
+    n_unresolved += pass.n_unresolved();
   }
   CHECK(n_unresolved == 0);
 }
@@ -252,12 +251,12 @@ TEST_CASE("contact: a vertex crushed between two walls is counted", "[contact]")
   Collider ceiling = floor_collider(0.3);
   ceiling.shape = Plane{{0, 1, 0}, {0, -1, 0}};
   ceiling.motion = steady_motion({0, -2, 0});
-  ContactStage stage({floor_collider(0.3), ceiling}, {});
-  stage.begin_substep(0, 1);
+  ContactPass pass({floor_collider(0.3), ceiling}, {});
+  pass.begin_substep(0, 1);
   Vec3 position{0, 0.5, 0};
   Vec3 velocity = Vec3::Zero();
-  CHECK(resolve(stage, VertexId(0), {0, 0.5, 0}, position, velocity));
-  CHECK(stage.n_unresolved() == 1);
+  CHECK(resolve(pass, VertexId(0), {0, 0.5, 0}, position, velocity));
+  CHECK(pass.n_unresolved() == 1);
   CHECK(position.allFinite());
   CHECK(velocity.allFinite());
 }
@@ -270,11 +269,11 @@ TEST_CASE("contact: a face held by its corners does not cut the sphere", "[conta
   const Collider ball = ball_collider({0, 0, 0}, radius, 0);
   const double circumradius = 0.02;
   const double half_thickness = 0.0005;
-  ContactStage stage({ball}, {half_thickness, Eigen::VectorXd::Constant(1, circumradius)});
-  CHECK(stage.clearance(ball, VertexId(0)).at_a ==
+  ContactPass pass({ball}, {half_thickness, Eigen::VectorXd::Constant(1, circumradius)});
+  CHECK(pass.clearance(ball, VertexId(0)).at_a ==
         Approx(half_thickness + std::sqrt(radius * radius + circumradius * circumradius) - radius));
-  CHECK(stage.clearance(floor_collider(0), VertexId(0)).at_a == half_thickness);
-  const double held = radius + stage.clearance(ball, VertexId(0)).at_a;
+  CHECK(pass.clearance(floor_collider(0), VertexId(0)).at_a == half_thickness);
+  const double held = radius + pass.clearance(ball, VertexId(0)).at_a;
   for (int trial = 0; trial < 500; ++trial) {
     // Three points of a circle of that radius, whose plane is tilted until all of them are clear.
     const Vec3 normal = random_direction(random);

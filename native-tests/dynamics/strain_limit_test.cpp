@@ -3,7 +3,7 @@
 
 #include "core/base/check.h"
 #include "core/dynamics/stepper_table.h"
-#include "core/dynamics/strain_limit_stage.h"
+#include "core/dynamics/strain_limit_pass.h"
 #include "core/model/hanging_vertices.h"
 #include "core/model/momentum.h"
 #include "native-tests/support/graded_sheets.h"
@@ -76,25 +76,25 @@ TEST_CASE("strain limit: two masses that fly apart end at the limit as an inelas
   StrainLimitOptions options;
   options.stretch = 0.1;
   const Pair pair(options);
-  StrainLimitStage stage(pair.model);
+  StrainLimitPass pass(pair.model);
   State state = drifted(pair.begin, 0.1);  // 1.6 m long
-  stage.limit(state, 0.1);
+  pass.limit(state, 0.1);
   const double goal = 1.099;  // a hundredth of the limit below it
   const double pulled = 1.6 - goal;
   CHECK(state.positions(0, 0) == Approx(0.75 * pulled));
   CHECK(state.positions(0, 1) == Approx(1.6 - 0.25 * pulled));
   CHECK(state.velocities(0, 0) == Approx(0.75 * pulled / 0.1));
   CHECK(state.velocities(0, 1) == Approx(6 - 0.25 * pulled / 0.1));
-  CHECK(stage.n_capped() == 0);
+  CHECK(pass.n_capped() == 0);
 }
 
 TEST_CASE("strain limit: Provot's moves places alone", "[dynamics]") {
   StrainLimitOptions options;
   options.law = StrainLimitLaw::provot;
   const Pair pair(options);
-  StrainLimitStage stage(pair.model);
+  StrainLimitPass pass(pair.model);
   State state = drifted(pair.begin, 0.1);
-  stage.limit(state, 0.1);
+  pass.limit(state, 0.1);
   CHECK(state.positions(0, 1) - state.positions(0, 0) == Approx(1.099));
   CHECK(state.velocities == pair.begin.velocities);
 }
@@ -104,9 +104,9 @@ TEST_CASE("strain limit: an edge is not compressed beyond its lower limit", "[dy
   options.compression = GENERATE(0.2, 1.0);
   Pair pair(options);
   pair.begin.velocities(0, 1) = -6;
-  StrainLimitStage stage(pair.model);
+  StrainLimitPass pass(pair.model);
   State state = drifted(pair.begin, 0.1);  // 0.4 m long
-  stage.limit(state, 0.1);
+  pass.limit(state, 0.1);
   const double goal = options.compression < 1 ? 0.802 : 0.4;
   CHECK(state.positions(0, 1) - state.positions(0, 0) == Approx(goal));
 }
@@ -122,13 +122,13 @@ TEST_CASE("strain limit: sweeps end below the limit and keep the momentum", "[dy
   place_between_parents(model.hanging, begin);
   const State proposed = drifted(begin, 0.003);
   REQUIRE(longest_share(mesh, proposed.positions) > 1 + 1.05 * options.stretch);
-  StrainLimitStage stage(model);
+  StrainLimitPass pass(model);
   State state = proposed;
-  stage.limit(state, 0.003);
+  pass.limit(state, 0.003);
   place_between_parents(model.hanging, state);
-  CAPTURE(seed, mesh.n_vertices(), stage.n_sweeps());
+  CAPTURE(seed, mesh.n_vertices(), pass.n_sweeps());
   CHECK(longest_share(mesh, state.positions) <= 1 + options.stretch);
-  CHECK(stage.n_capped() == 0);
+  CHECK(pass.n_capped() == 0);
   const double momentum_scale = model.masses.sum() * 4;
   CHECK((momentum(model, state) - momentum(model, proposed)).norm() < 1e-13 * momentum_scale);
 }
@@ -141,12 +141,12 @@ TEST_CASE(
     pair.begin.positions(0, 1) = 1.099;
     pair.begin.velocities.setZero();
     pair.begin.velocities(1, 1) = 3;  // moves across
-    StrainLimitStage stage(pair.model);
+    StrainLimitPass pass(pair.model);
     State state = pair.begin;
     const double before = angular_momentum(pair.model, state).norm();
     for (int s = 0; s < std::lround(0.5 / h); ++s) {
       state = drifted(state, h);
-      stage.limit(state, h);
+      pass.limit(state, h);
     }
     return 1 - angular_momentum(pair.model, state).norm() / before;
   };

@@ -49,10 +49,10 @@ Scene scene_of(const Json& json) { return read_scene(JsonReader(json), fabric_li
 double found(const CaseCheck& check, const Json& json, double duration) {
   Simulation simulation(scene_of(json));
   const auto measure = check.measure(simulation, duration);
-  measure->look(simulation, {});
+  measure->update(simulation, {});
   while (simulation.n_steps() < std::lround(duration / kStep)) {
     const SolveReport report = simulation.step();
-    measure->look(simulation, report);
+    measure->update(simulation, report);
   }
   return measure->value();
 }
@@ -146,7 +146,7 @@ TEST_CASE("case checks: cloth that was pulled too far has torn, and weighs what 
   heavy["fabric"]["areal_density_kg_per_m2"] = 0.15;
   const Simulation light(scene_of(sheet_scene()));
   const auto measure = mass_kept(0).measure(light, 1);
-  measure->look(Simulation(scene_of(heavy)), {});
+  measure->update(Simulation(scene_of(heavy)), {});
   CHECK(measure->value() == Approx(0.5));
 }
 

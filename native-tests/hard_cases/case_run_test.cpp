@@ -59,11 +59,8 @@ CaseFiles files_with(const std::string& scene) {
 }
 
 HardCase sheet_case() {
-  return {.name = "sheet",
-          .breaks = "Nothing.",
-          .brief = 0.05,
-          .full = 0.2,
-          .checks = {stays_within(2)}};
+  return {
+      .name = "sheet", .breaks = "Nothing.", .seconds = {0.05, 0.2}, .checks = {stays_within(2)}};
 }
 
 CaseOutcome outcome(const HardCase& hard_case, const StepperType& type,
@@ -160,7 +157,7 @@ TEST_CASE("hard cases: a check that a stepper is spared is not asked of it, but 
 
 TEST_CASE("hard cases: what would take too much work is cut, and told so", "[hard_cases]") {
   HardCase hard_case = sheet_case();
-  hard_case.brief = 1e6;
+  hard_case.seconds.brief = 1e6;
   hard_case.checks.push_back(rests(1, 1e-3));
   const CaseOutcome cut = outcome(hard_case, steppers::kImplicitEuler);
   CHECK(cut.status == CaseStatus::ok);

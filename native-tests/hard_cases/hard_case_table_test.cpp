@@ -47,8 +47,8 @@ TEST_CASE("hard cases: each has a name of its own, a sentence, a length and some
     CHECK(names.insert(hard_case.name).second);
     CHECK_FALSE(hard_case.breaks.empty());
     if (hard_case.still) continue;
-    CHECK(hard_case.brief > 0);
-    CHECK(hard_case.brief <= hard_case.full);
+    CHECK(hard_case.seconds.brief > 0);
+    CHECK(hard_case.seconds.brief <= hard_case.seconds.full);
     CHECK((hard_case.is_bad_input || !hard_case.checks.empty()));
   }
 }

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "core/contact/contact_stage.h"
+#include "core/contact/contact_pass.h"
 #include "core/scene/format/solid_section.h"
 #include "native-tests/support/places.h"
 
@@ -16,11 +16,11 @@ const VertexId kVertex{0};
 constexpr double kHalfThickness = 0.01;  // half of the cloth's thickness [m]
 
 /// Its upper side is at y = 0.
-ContactStage shelf_stage(const Motion& motion) {
+ContactPass shelf_pass(const Motion& motion) {
   ContactOptions options;
   options.half_thickness = kHalfThickness;
   const Collider limb{RoundedCone{{5, 0, 0}, {6, 0, 0}, 0.2, 0.1}, {}, 0};
-  return ContactStage({limb, Collider{Shelf{-0.1, 0.1}, motion, 0}}, options);
+  return ContactPass({limb, Collider{Shelf{-0.1, 0.1}, motion, 0}}, options);
 }
 
 Motion held() { return {}; }
@@ -39,37 +39,37 @@ TEST_CASE("made-up solid: contact keeps a vertex off it, held and lifted", "[con
   const auto [motion, rise] = GENERATE(table<Motion, double>({{held(), 0}, {lifted(), 0.05}}));
   const double side = GENERATE(1.0, -1.0);
   CAPTURE(rise, side);
-  ContactStage stage = shelf_stage(motion);
-  stage.begin_substep(0, 1);
+  ContactPass pass = shelf_pass(motion);
+  pass.begin_substep(0, 1);
   const double level = -0.1 + rise + side * (0.1 + kHalfThickness);
   Vec3 position(0, -0.1 + side * 0.02, 0);  // not in the middle, which has no side
   Vec3 velocity(1, -side * 2, 0);
-  const auto touch = stage.resolve(kVertex, {0, level + side * 0.5, 0}, position, velocity);
+  const auto touch = pass.resolve(kVertex, {0, level + side * 0.5, 0}, position, velocity);
   REQUIRE(touch);
   CHECK(touch->normal.isApprox(Vec3(0, side, 0)));
   CHECK(position.y() == Approx(level).margin(1e-12));
-  CHECK(stage.gap_at_end(*touch, position).distance == Approx(0).margin(1e-12));
+  CHECK(pass.gap_at_end(*touch, position).distance == Approx(0).margin(1e-12));
 }
 
 TEST_CASE("made-up solid: penetration, support and outline are known of it", "[contact]") {
-  ContactStage stage = shelf_stage(held());
+  ContactPass pass = shelf_pass(held());
   Positions positions(3, 2);
   positions.col(0) << 0, -0.02, 0;
   positions.col(1) << 0, kHalfThickness, 0;
-  CHECK(stage.penetration(positions, 0).depth == Approx(0.02));
-  CHECK(stage.penetration(positions, 0).n_inside == 1);
-  CHECK(stage.supports(positions, 0).size() == 2);
-  stage.begin_substep(0, 1);
-  std::vector<ContactStage::Outline> outlines;
-  stage.outlines(outlines);
+  CHECK(pass.penetration(positions, 0).depth == Approx(0.02));
+  CHECK(pass.penetration(positions, 0).n_inside == 1);
+  CHECK(pass.supports(positions, 0).size() == 2);
+  pass.begin_substep(0, 1);
+  std::vector<ContactPass::Outline> outlines;
+  pass.outlines(outlines);
   REQUIRE(outlines.size() == 2);
-  // The stage takes what no lane knows, wherever it may be met: here everywhere.
+  // The pass takes what no lane knows, wherever it may be met: here everywhere.
   CHECK_FALSE(outlines[0].is_exact);
   CHECK(std::isinf(std::get<SweptSphere>(outlines[0].shape).radius));
 }
 
 TEST_CASE("made-up solid: numbers that it does not take are refused", "[contact]") {
-  CHECK_THROWS_AS(ContactStage({Collider{Shelf{0, 0}, {}, 0}}, {}), ContractError);
+  CHECK_THROWS_AS(ContactPass({Collider{Shelf{0, 0}, {}, 0}}, {}), ContractError);
 }
 
 TEST_CASE("made-up solid: a scene names it by its word", "[scene]") {
@@ -96,7 +96,7 @@ TEST_CASE("made-up solid: a real one is named in eight places", "[contact]") {
   };
   std::set<std::string> named = files_naming({"Plane", "SweptPlane", "'plane'", "\"plane\""});
   // Speed alone asks which solid it is there: the made-up one does without.
-  CHECK(named.erase("core/contact/contact_stage") == 1);
+  CHECK(named.erase("core/contact/contact_pass") == 1);
   CHECK(named.erase("core/dynamics/position_based/lanes/contact_program") == 1);
   // Other planes than the solid.
   CHECK(named.erase("core/scene/tearing") == 1);

@@ -42,7 +42,8 @@ FitReport after_motion(const FoldPlan& fold, double amplitude, double offset) {
   const MeshSample sample(fold.mesh, fold.fine);
   FitReport report;
   for (int frame = 0; frame < kFrames; ++frame)
-    report = monitor.look(sample.of(folded(fold.fine, offset + place_at(frame, 0.31), amplitude)));
+    report =
+        monitor.add_frame(sample.of(folded(fold.fine, offset + place_at(frame, 0.31), amplitude)));
   return report;
 }
 
@@ -82,13 +83,13 @@ TEST_CASE("fit monitor: nine frames outside do not fire, the tenth does", "[refi
   const MeshSample sample(fold.mesh, fold.fine);
   const Positions outside = sample.of(folded(fold.fine, 0.7, 1));
   const Positions inside = sample.of(folded(fold.fine, 0.3, 1));
-  for (int frame = 0; frame < 9; ++frame) CHECK(!monitor.look(outside).fires);
-  CHECK(monitor.look(inside).n_in_a_row == 0);
-  for (int frame = 0; frame < 9; ++frame) CHECK(!monitor.look(outside).fires);
-  const FitReport report = monitor.look(outside);
+  for (int frame = 0; frame < 9; ++frame) CHECK(!monitor.add_frame(outside).fires);
+  CHECK(monitor.add_frame(inside).n_in_a_row == 0);
+  for (int frame = 0; frame < 9; ++frame) CHECK(!monitor.add_frame(outside).fires);
+  const FitReport report = monitor.add_frame(outside);
   CHECK(report.fires);
   CHECK(*report.first_fired == 19);
-  CHECK(!monitor.look(inside).fires);
+  CHECK(!monitor.add_frame(inside).fires);
 }
 
 TEST_CASE("fit monitor: a face may bend as those up to two away from it did", "[refinement]") {

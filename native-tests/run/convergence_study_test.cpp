@@ -67,7 +67,7 @@ TEST_CASE("convergence study: what is heard of it rises to one", "[run]") {
   ConvergenceOptions options = few_rounds();
   options.time = 0.05;
   std::vector<double> heard;
-  options.hear = [&](double done) { heard.push_back(done); };
+  options.on_progress = [&](double done) { heard.push_back(done); };
   study_convergence(released_sheet_scene(4, "fine cotton"), options);
   // Three steps, two methods, three numbers of rounds.
   REQUIRE(heard.size() == 8);

@@ -71,7 +71,7 @@ TEST_CASE("inner_friction: the account of a run has its loss", "[run]") {
   RunLedger ledger(simulation);
   for (int s = 0; s < 60; ++s) {
     run(simulation, 1);
-    ledger.look();
+    ledger.record_step();
   }
   const EnergyLedger& account = ledger.account();
   CHECK(account.works().bend_friction == -simulation.model().bend_friction->dissipated());

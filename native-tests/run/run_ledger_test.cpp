@@ -14,7 +14,7 @@ TEST_CASE("run_ledger: it accounts from where it begins, to the last step", "[ru
   CHECK(ledger.account().first_parts().sum() == before);
   for (int s = 0; s < 5; ++s) {
     REQUIRE(simulation.step().ok());
-    ledger.look();
+    ledger.record_step();
   }
   const EnergyLedger& account = ledger.account();
   const double after = total_energy(simulation.model(), simulation.state());
@@ -28,9 +28,9 @@ TEST_CASE("run_ledger: looking again after no step changes nothing", "[run]") {
   REQUIRE(simulation.step().ok());
   RunLedger ledger(simulation);
   REQUIRE(simulation.step().ok());
-  ledger.look();
+  ledger.record_step();
   const double damping = ledger.account().works().damping;
   REQUIRE(damping != 0);
-  ledger.look();
+  ledger.record_step();
   CHECK(ledger.account().works().damping == damping);
 }

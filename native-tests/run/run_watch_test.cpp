@@ -41,7 +41,7 @@ std::vector<RunWarning> warnings_of(const Scene& scene, double duration) {
   Simulation simulation(scene);
   TimedRun run(simulation, TimedRun::Parts::untimed);
   RunWatch watch(simulation);
-  while (simulation.time() < duration && !run.has_ended()) watch.look(simulation, run.step());
+  while (simulation.time() < duration && !run.has_ended()) watch.check(simulation, run.step());
   CHECK_FALSE(run.has_ended());
   return watch.warnings();
 }
@@ -131,7 +131,7 @@ TEST_CASE("run_watch: a wreck that goes on with better settings is told as one",
   Simulation simulation(changed("swinging_sheet", {{"/refinement/level", 0}}));
   simulation.start_from(30 * simulation.state().positions);
   RunWatch watch(simulation);
-  watch.look(simulation, simulation.step());
+  watch.check(simulation, simulation.step());
   REQUIRE_FALSE(watch.warnings().empty());
   CHECK(watch.warnings().front().kind == RunWarning::Kind::stretch);
 }
@@ -153,7 +153,7 @@ TEST_CASE("run_watch: what is left unsolved is told from the first of its steps 
   for (int look = 1; look <= 5; ++look) {
     simulation.step();
     if (look == 1) since = simulation.time();
-    watch.look(simulation, unsolved);
+    watch.check(simulation, unsolved);
     CAPTURE(look);
     // One such step is no nonsense, however much it left.
     CHECK(watch.warnings().front().is_nonsense() == (look == 5));

@@ -271,8 +271,8 @@ TEST_CASE("tearing: the account of energy goes on, with what tears took", "[run]
   const double before = total_energy(simulation.model(), simulation.state());
   for (int s = 0; s < 40; ++s) {
     const SolveReport report = simulation.step();
-    ledger.look();
-    watch.look(simulation, report);
+    ledger.record_step();
+    watch.check(simulation, report);
   }
   REQUIRE(n_splits(simulation) > 0);
   const EnergyLedger& account = ledger.account();

@@ -11,9 +11,9 @@ using namespace pleat;
 
 namespace {
 
-double sum(const StageTimer& parts) {
+double sum(const PartTimer& parts) {
   double seconds = 0;
-  for (int s = 0; s < kStageCount; ++s) seconds += parts.total(static_cast<Stage>(s));
+  for (int s = 0; s < kPartCount; ++s) seconds += parts.total(static_cast<Part>(s));
   return seconds;
 }
 

@@ -82,11 +82,10 @@ RoundedCone random_cone(Random& random) {
 }
 
 double height(const Collider& collider, const Vec3& place, double time) {
-  return gap(swept(ContactStage::placed(collider, time), Clearance{}, Vec3::Zero()), place)
-      .distance;
+  return gap(swept(ContactPass::placed(collider, time), Clearance{}, Vec3::Zero()), place).distance;
 }
 
-bool resolve(ContactStage& stage, VertexId vertex, const Vec3& begin, Vec3& position,
+bool resolve(ContactPass& pass, VertexId vertex, const Vec3& begin, Vec3& position,
              Vec3& velocity) {
   constexpr int kMostVertices = 4;  // capacity on the stack, as allocations are counted
   using FewPositions = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMostVertices>;
@@ -97,7 +96,7 @@ bool resolve(ContactStage& stage, VertexId vertex, const Vec3& begin, Vec3& posi
   const FewPositions positions_begin = begin.replicate(1, n_vertices);
   FewPositions positions = position.replicate(1, n_vertices);
   FewPositions velocities = velocity.replicate(1, n_vertices);
-  const auto touches = stage.resolve(
+  const auto touches = pass.resolve(
       positions_begin, std::span(is_exempt).first(static_cast<std::size_t>(n_vertices)), positions,
       velocities);
   position = positions.col(vertex);
@@ -105,13 +104,12 @@ bool resolve(ContactStage& stage, VertexId vertex, const Vec3& begin, Vec3& posi
   return !touches.empty();
 }
 
-bool step(ContactStage& stage, const Vec3& acceleration, double time, double h,
-          Particle& particle) {
+bool step(ContactPass& pass, const Vec3& acceleration, double time, double h, Particle& particle) {
   const Vec3 begin = particle.position;
   particle.velocity += h * acceleration;
   particle.position += h * particle.velocity;
-  stage.begin_substep(time, time + h);
-  return resolve(stage, VertexId(0), begin, particle.position, particle.velocity);
+  pass.begin_substep(time, time + h);
+  return resolve(pass, VertexId(0), begin, particle.position, particle.velocity);
 }
 
 }  // namespace pleat

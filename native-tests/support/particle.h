@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/base/random.h"
-#include "core/contact/contact_stage.h"
+#include "core/contact/contact_pass.h"
 
 namespace pleat {
 
@@ -40,11 +40,10 @@ double height(const Collider& collider, const Vec3& place, double time);
 ///
 /// begin     where the substep begins [m]
 /// position  where it ends [m], corrected;  velocity  [m/s], corrected
-bool resolve(ContactStage& stage, VertexId vertex, const Vec3& begin, Vec3& position,
-             Vec3& velocity);
+bool resolve(ContactPass& pass, VertexId vertex, const Vec3& begin, Vec3& position, Vec3& velocity);
 
 /// One step of symplectic Euler under an acceleration [m/s^2], contact included. True when a
 /// contact acted.
-bool step(ContactStage& stage, const Vec3& acceleration, double time, double h, Particle& particle);
+bool step(ContactPass& pass, const Vec3& acceleration, double time, double h, Particle& particle);
 
 }  // namespace pleat

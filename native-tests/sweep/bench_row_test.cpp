@@ -166,8 +166,8 @@ TEST_CASE("bench_row: the table tells surface, bend, parts and the process's mem
   for (const char* title :
        {"| 95 % within mm |", "| surface mm |", "| bend 1/m |", "| process peak MB |"})
     CHECK(table.find(title) != std::string::npos);
-  CHECK(table.find(std::string("| ") + name(Stage::solve) + " ms |") != std::string::npos);
-  CHECK(table.find(std::string("| ") + name(Stage::contact) + " ms |") == std::string::npos);
+  CHECK(table.find(std::string("| ") + name(Part::solve) + " ms |") != std::string::npos);
+  CHECK(table.find(std::string("| ") + name(Part::contact) + " ms |") == std::string::npos);
   CHECK(table.find("| 31 | 4.2 | 1.75 |") != std::string::npos);
   CHECK(table.find("| 123 | ok |") != std::string::npos);
   CHECK(table.find("| - | ok |") != std::string::npos);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "core/base/check.h"
+#include "core/base/formatted.h"
 #include "core/dynamics/stepper_type.h"
 #include "core/model/elements.h"
 #include "core/model/hanging_vertices.h"
@@ -16,9 +16,7 @@ namespace {
 constexpr double kStepShare = 0.9;  // share of the bound, used when the substeps are ours to choose
 
 [[noreturn]] void refuse(const char* format, double bound, double found, double enough) {
-  char sentence[200];
-  std::snprintf(sentence, sizeof sentence, format, bound, found, enough);
-  throw InputError("/method/substeps", sentence);
+  throw InputError("/method/substeps", formatted(format, bound, found, enough));
 }
 
 }  // namespace

@@ -13,12 +13,12 @@ SolveReport StepperExplicit::substep(State& state, double time_end, double h) {
   positions_begin_ = state.positions;
   set_external_forces(state, forces_);
   {
-    const StageScope scope(observer_, Stage::forces);
+    const PartScope scope(observer_, Part::forces);
     add_internal_forces(model_, state.positions, state.velocities, forces_);
     pull_to_parents(model_.hanging, forces_);
   }
   {
-    const StageScope scope(observer_, Stage::solve);
+    const PartScope scope(observer_, Part::solve);
     if (options().euler == EulerRule::forward) state.positions += h * state.velocities;
     for (int i = 0; i < model_.n_vertices(); ++i)
       if (!model_.hangs(VertexId(i)))

@@ -20,7 +20,7 @@ void StepperRk4::evaluate(State& state, double time, State& rates) {
   rates.positions = state.velocities;
   if (model_.air) model_.air->set_time(time);
   set_external_forces(state, rates.velocities);
-  const StageScope scope(observer_, Stage::forces);
+  const PartScope scope(observer_, Part::forces);
   add_internal_forces(model_, state.positions, state.velocities, rates.velocities);
   pull_to_parents(model_.hanging, rates.velocities);
   for (int i = 0; i < model_.n_vertices(); ++i)

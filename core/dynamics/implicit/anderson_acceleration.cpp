@@ -70,8 +70,6 @@ const LoadedRows* AndersonAcceleration::propose(const VertexRows& image, const V
   return &change_;
 }
 
-void AndersonAcceleration::accept() { point_ = image_ + change_; }
-
 void AndersonAcceleration::refuse() {
   ++n_refused_;
   n_directions_ = 0;

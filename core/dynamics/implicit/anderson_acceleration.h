@@ -40,7 +40,7 @@ class AndersonAcceleration {
   /// or refused; null, and the image is the next point, while there is nothing to foretell from.
   /// Valid until the next call.
   const LoadedRows* propose(const VertexRows& image, const VertexRows& load);
-  void accept();
+  void accept() { point_ = image_ + change_; }
   /// The image is the next point, and rounds before this one are forgotten.
   void refuse();
 

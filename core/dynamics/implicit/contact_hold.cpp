@@ -12,10 +12,10 @@ void ContactHold::set_resistances(const SystemMatrix& matrix, double mass_unit) 
     resistances_[i] = mass_unit / 3 * matrix.diagonal_trace(VertexId(i));
 }
 
-void ContactHold::choose(std::span<const ContactStage::Touch> touches, const State& begin,
+void ContactHold::choose(std::span<const ContactPass::Touch> touches, const State& begin,
                          double h) {
   held_.clear();
-  for (const ContactStage::Touch& touch : touches) {
+  for (const ContactPass::Touch& touch : touches) {
     const VertexId v = touch.vertex;
     const double resistance = share_ * resistances_[v];
     const Vec3 solid_velocity = contact_.solid_velocity(touch, begin.positions.col(v));
@@ -34,8 +34,7 @@ void ContactHold::choose(std::span<const ContactStage::Touch> touches, const Sta
   }
 }
 
-void ContactHold::add(const Positions& velocities, SystemMatrix& matrix,
-                      Eigen::Ref<Positions> rhs) const {
+void ContactHold::add(const Positions& velocities, SystemMatrix& matrix, PositionsRef rhs) const {
   for (const Held& held : held_) {
     matrix.add_diagonal(held.vertex, held.resistance);
     rhs.col(held.vertex) += held.resistance * (held.velocity - velocities.col(held.vertex));

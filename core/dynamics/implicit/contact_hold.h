@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/contact_stage.h"
+#include "core/contact/contact_pass.h"
 #include "core/model/state.h"
 #include "core/model/system_matrix.h"
 
@@ -13,10 +13,8 @@ namespace pleat {
 ///
 /// A vertex that a solid touched in the last substep is held by a resistance as large as its own:
 /// to the solid's velocity altogether if it sticks, and if it slips, along the normal, onto the
-/// solid's surface where it will be. What that
-/// exerts joins the remembered contact force, which thereby converges as a multiplier does: the
-/// resistance need not be large for the vertex to be held, and a vertex in equilibrium is held by
-/// the force alone.
+/// solid's surface where it will be. What that exerts joins the remembered contact force, which
+/// thereby converges as a multiplier does.
 ///
 /// Source: Hestenes, Multiplier and gradient methods, Journal of Optimization Theory and
 /// Applications 4, 1969; docs/methods/contact.md.
@@ -36,12 +34,12 @@ class ContactHold {
   void set_resistances(const SystemMatrix& matrix, double mass_unit = 1);
   void set_resistances(const Eigen::VectorXd& resistances) { resistances_ = resistances; }
 
-  /// Says which vertices are held in the substep that the contact stage is at.
-  void choose(std::span<const ContactStage::Touch> touches, const State& begin, double h);
+  /// Says which vertices are held in the substep that the contact pass is at.
+  void choose(std::span<const ContactPass::Touch> touches, const State& begin, double h);
   std::span<const Held> held() const { return held_; }
 
   /// Adds what holds them to A dv = rhs, a linearised step from these velocities, A in kg.
-  void add(const Positions& velocities, SystemMatrix& matrix, Eigen::Ref<Positions> rhs) const;
+  void add(const Positions& velocities, SystemMatrix& matrix, PositionsRef rhs) const;
 
   /// Adds the forces that they exert at the velocities of the solution [m/s].
   void add_forces(const Positions& velocities, double h, Positions& forces) const;
@@ -50,7 +48,7 @@ class ContactHold {
   const Eigen::VectorXd& resistances() const { return resistances_; }
 
  private:
-  const ContactStage& contact_;
+  const ContactPass& contact_;
   double share_;
   Eigen::VectorXd resistances_;
   std::vector<Held> held_;

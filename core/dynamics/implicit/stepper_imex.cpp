@@ -50,7 +50,7 @@ void StepperImex::choose() {
 }
 
 // NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is handed on to be written through.
-void StepperImex::add_explicit_forces(const State& state, Eigen::Ref<Positions> forces) const {
+void StepperImex::add_explicit_forces(const State& state, PositionsRef forces) const {
   add_internal_forces(parts_.soft, state.positions, state.velocities, forces);
 }
 

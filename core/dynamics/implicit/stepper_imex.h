@@ -16,9 +16,7 @@ int imex_substeps(const ClothModel& model, const MethodOptions& options);
 /// with the forces f_E of the soft elements and all others, and f_I, projected stiffness K_I and
 /// damping C_I of the stiff ones. Backward Euler with one linearisation where all are stiff,
 /// symplectic Euler where none is. First order. The matrix has blocks of the stiff elements alone;
-/// its pattern lasts until the set changes.
-///
-/// Source: docs/methods/imex.md.
+/// its pattern lasts until the set changes. Source: docs/methods/imex.md.
 class StepperImex final : public StepperImplicit {
  public:
   /// Throws InputError when the wanted solver is not available, or no number of substeps makes the
@@ -33,7 +31,7 @@ class StepperImex final : public StepperImplicit {
 
  private:
   void choose();
-  void add_explicit_forces(const State& state, Eigen::Ref<Positions> forces) const override;
+  void add_explicit_forces(const State& state, PositionsRef forces) const override;
 
   StabilitySplit parts_;
 };

@@ -26,7 +26,7 @@ void StepperImplicit::take_implicitly(const ClothModel& stiff) {
 /// Fills the matrix with A = M + h C + h^2 K and `forces_`, which holds the external ones, with the
 /// right-hand side h (f - h K v) = h (f_elastic + f_explicit + f_external) - (A - M) v.
 void StepperImplicit::assemble(const State& state, double h) {
-  const StageScope scope(observer_, Stage::assembly);
+  const PartScope scope(observer_, Part::assembly);
   matrix_->set_zero();
   matrix_->add_masses(1);
   matrix_->add_elasticity(state.positions, h * h, h, ElementHessian::projected);
@@ -53,7 +53,7 @@ SolveReport StepperImplicit::substep(State& state, double time_end, double h) {
   add_air_resistance(h);
   matrix_->reduce_to_parents(flat(forces_));
   if (hold_) {
-    const StageScope scope(observer_, Stage::contact);
+    const PartScope scope(observer_, Part::contact);
     hold_->set_resistances(*matrix_);
     hold_->choose(contact_memory_.touches(), state, h);
     hold_->add(state.velocities, *matrix_, forces_);

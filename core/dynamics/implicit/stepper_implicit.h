@@ -27,7 +27,7 @@ class StepperImplicit : public Stepper {
   /// Makes the matrix for these elements; K, C and f above are theirs.
   void take_implicitly(const ClothModel& stiff);
   /// Adds the forces of all other elements [N].
-  virtual void add_explicit_forces(const State&, Eigen::Ref<Positions>) const {}
+  virtual void add_explicit_forces(const State&, PositionsRef) const {}
 
   SolveReport substep(State& state, double time_end, double h) final;
 

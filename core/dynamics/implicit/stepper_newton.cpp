@@ -1,6 +1,5 @@
 #include "core/dynamics/implicit/stepper_newton.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -82,10 +81,8 @@ void StepperNewton::refresh() {
   has_factor_ = false;
 }
 
-double StepperNewton::first_shift() const { return std::max(model_.gravity.norm(), 1.0) / extent_; }
-
 void StepperNewton::set_up(const State& state, double h) {
-  const StageScope scope(observer_, Stage::assembly);
+  const PartScope scope(observer_, Part::assembly);
   extent_ = box_diagonal(positions_begin_);
   if (extent_ == 0) extent_ = 1;  // vertices in one place: per metre
   set_steady_forces(loads_);
@@ -148,7 +145,7 @@ double StepperNewton::potential(const Positions& positions, double* magnitude) {
 }
 
 void StepperNewton::evaluate_gradient() {
-  const StageScope scope(observer_, Stage::forces);
+  const PartScope scope(observer_, Part::forces);
   gradient_.setZero();
   add_elastic_forces(model_, positions_, gradient_);
   if (model_.air && !is_at_rest()) {
@@ -166,7 +163,7 @@ void StepperNewton::evaluate_gradient() {
 }
 
 void StepperNewton::fill_matrix(ElementHessian hessian) {
-  const StageScope scope(observer_, Stage::assembly);
+  const PartScope scope(observer_, Part::assembly);
   matrix_.set_values(base_);
   matrix_.add_elasticity(positions_, 1, 0, hessian);
   if (model_.air && !is_at_rest())
@@ -182,20 +179,20 @@ void StepperNewton::fill_matrix(ElementHessian hessian) {
 
 SolveReport StepperNewton::solve_with_new_factor() {
   {
-    const StageScope scope(observer_, Stage::factor);
+    const PartScope scope(observer_, Part::factor);
     solver_->set_places(flat(positions_));
     SolveReport report = solver_->factorize(matrix_.lower());
     has_factor_ = report.ok() && is_direct(options().solver);
     if (!report.ok()) return report;
   }
-  const StageScope scope(observer_, Stage::solve);
+  const PartScope scope(observer_, Part::solve);
   direction_.setZero();
   return solver_->solve(right_side_, flat(direction_));
 }
 
 /// Conjugate gradients on the matrix with the kept factor as preconditioner.
 SolveReport StepperNewton::solve_with_kept_factor() {
-  const StageScope scope(observer_, Stage::solve);
+  const PartScope scope(observer_, Part::solve);
   const auto A = matrix_.lower().selfadjointView<Eigen::Lower>();
   Eigen::Map<Eigen::VectorXd> x = flat(direction_);
   x.setZero();
@@ -255,7 +252,7 @@ SolveReport StepperNewton::find_direction() {
 
 /// The share of the direction after which the potential is lower; 0 when there is none.
 double StepperNewton::search_line() {
-  const StageScope scope(observer_, Stage::solve);
+  const PartScope scope(observer_, Part::solve);
   double magnitude = 0;
   const double before = potential(positions_, &magnitude);
   const double slope = gradient_.cwiseProduct(direction_).sum();
@@ -284,7 +281,7 @@ double StepperNewton::search_line() {
 bool StepperNewton::is_stable() {
   shift_ = 0;
   fill_matrix(ElementHessian::exact);
-  const StageScope scope(observer_, Stage::factor);
+  const PartScope scope(observer_, Part::factor);
   has_factor_ = solver_->factorize(matrix_.lower()).ok();
   return has_factor_;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "core/dynamics/implicit/contact_hold.h"
 #include "core/dynamics/stepper.h"
 #include "core/model/system_matrix.h"
@@ -9,9 +11,8 @@ namespace pleat {
 /// Backward Euler, implicit midpoint or static equilibrium, solved exactly: Newton's method on the
 /// potential whose minimum is the end of the substep, with line search, the true Hessian and a
 /// direct solver. Where the Hessian proves indefinite, its projected form serves for that
-/// iteration. A factor costs as much as twenty solves with it and Hessians change slowly, so that a
-/// kept one preconditions conjugate gradients until they take too many iterations. It makes
-/// references.
+/// iteration. A factor is kept as a preconditioner of conjugate gradients until they take too many
+/// iterations.
 ///
 /// With k = h (backward Euler) or h/2 (midpoint: half of a backward step, then extrapolated) and
 /// d = x - x_begin it minimises 1/2 d'(M/k^2 + C/k) d - d'(M v/k + f) + E(x). The damping C is
@@ -49,7 +50,7 @@ class StepperNewton final : public Stepper {
   SolveReport find_direction();
   double search_line();
   /// The squared frequency of a pendulum as long as the cloth: brings it to rest fastest [1/s^2].
-  double first_shift() const;
+  double first_shift() const { return std::max(model_.gravity.norm(), 1.0) / extent_; }
   bool is_at_rest() const { return options().rule == NewtonRule::equilibrium; }
 
   SystemMatrix matrix_;

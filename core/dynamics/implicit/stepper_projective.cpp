@@ -95,17 +95,17 @@ void StepperProjective::refresh() {
 }
 
 void StepperProjective::hold(const State& state, double h) {
-  const StageScope scope(observer_, Stage::contact);
+  const PartScope scope(observer_, Part::contact);
   was_held_ = is_held_;
   std::fill(is_held_.begin(), is_held_.end(), char{0});
-  for (const ContactStage::Touch& touch : contact_memory_.touches())
+  for (const ContactPass::Touch& touch : contact_memory_.touches())
     is_held_[touch.vertex] = is_free_[touch.vertex];
   hold_->choose(contact_memory_.touches(), state, h);
   if (is_held_ == was_held_) return;
   for (int i = 0; i < model_.n_vertices(); ++i)
     matrix_.valuePtr()[matrix_.outerIndexPtr()[i]] =
         (is_held_[i] ? 1 + kHeldShare : 1) * diagonal_[i];
-  const StageScope factor_scope(observer_, Stage::factor);
+  const PartScope factor_scope(observer_, Part::factor);
   factor_report_ = solver_->factorize(matrix_);
 }
 
@@ -246,7 +246,7 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
   if (hold_) hold(state, h);
   if (!factor_report_.ok()) return factor_report_;
   {
-    const StageScope scope(observer_, Stage::forces);
+    const PartScope scope(observer_, Part::forces);
     set_steady_forces(forces_);
     if (model_.air)
       model_.air->add_damped_forces(state.positions, state.velocities, model_.masses,
@@ -263,10 +263,10 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
   SolveReport report;
   for (int round = 0; round < options().iterations; ++round) {
     {
-      const StageScope scope(observer_, Stage::assembly);
+      const PartScope scope(observer_, Part::assembly);
       set_right_side(time_end, h);
     }
-    const StageScope scope(observer_, Stage::solve);
+    const PartScope scope(observer_, Part::solve);
     report = solver_->solve(right_side_, solution_);
     if (!report.ok()) return report;
     if (round == 0) first_change_ = solution_.transpose() - first_change_;

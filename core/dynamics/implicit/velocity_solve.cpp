@@ -46,7 +46,7 @@ void VelocitySolve::learn() {
 }
 
 SolveReport VelocitySolve::advance(SystemMatrix& matrix, Positions& rhs, State& state,
-                                   double time_end, double h, StageObserver* observer) {
+                                   double time_end, double h, PartObserver* observer) {
   for (std::size_t p = 0; p < model_.pins.size(); ++p) {
     const Pin& pin = model_.pins[p];
     pin_changes_.col(static_cast<Eigen::Index>(p)) =
@@ -56,13 +56,13 @@ SolveReport VelocitySolve::advance(SystemMatrix& matrix, Positions& rhs, State& 
   matrix.prescribe(pin_changes_, flat(rhs));
   SolveReport report;
   {
-    const StageScope scope(observer, Stage::factor);
+    const PartScope scope(observer, Part::factor);
     solver_->set_places(flat(state.positions));
     report = solver_->factorize(matrix.lower());
   }
   if (!report.ok()) return report;
   {
-    const StageScope scope(observer, Stage::solve);
+    const PartScope scope(observer, Part::solve);
     guess();
     report = solver_->solve(flat(rhs), flat(change_));
     learn();

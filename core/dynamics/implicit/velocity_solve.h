@@ -3,7 +3,7 @@
 #include <array>
 #include <memory>
 
-#include "core/base/stage_observer.h"
+#include "core/base/part_observer.h"
 #include "core/linalg/linear_solver.h"
 #include "core/model/cloth_model.h"
 #include "core/model/state.h"
@@ -23,15 +23,11 @@ class VelocitySolve {
   /// Call it when pins have changed in number or vertex.
   void choose_pins(SystemMatrix& matrix);
 
-  /// The state moves unless the report ends the run. An iterative solver starts from what the last
-  /// changes lead to.
-  ///
-  /// matrix    reduced to parents; changed
-  /// rhs       [N s]; changed
-  /// time_end  of the substep of h [s]
-  /// observer  or null
+  /// The state moves by h [s] to `time_end` unless the report ends the run. An iterative solver
+  /// starts from what the last changes lead to. Matrix, reduced to parents, and right-hand side [N
+  /// s] are changed. The observer may be null.
   SolveReport advance(SystemMatrix& matrix, Positions& rhs, State& state, double time_end, double h,
-                      StageObserver* observer);
+                      PartObserver* observer);
 
  private:
   /// The polynomial through the last changes, at the next substep.

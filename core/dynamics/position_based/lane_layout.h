@@ -16,10 +16,9 @@ constexpr int kPanelRows = 4;
 /// The sheet is cut into rows of equal rest coordinate, the row nearest to the pins first. A row of
 /// m vertices is cut into four equal pieces of `stride` columns, and one group of four floats holds
 /// the same column of each piece: column c is lane c / stride of group c mod stride. Neighbours
-/// along and across the rows then are whole groups apart, lane by lane, so that four constraints
-/// between neighbours are computed together without moving data between lanes, however they follow
-/// on one another. Only where one piece ends and the next begins does a neighbour lie in another
-/// lane, and there a group shifted by one float serves.
+/// then are whole groups apart, lane by lane, so that four constraints between them are computed
+/// together without moving data between lanes. Only where one piece ends and the next begins does a
+/// neighbour lie in another lane, and there a group shifted by one float serves.
 ///
 /// Without rest coordinates, or where these are no grid, the whole cloth is one row in index order.
 /// Unused places are padding, before the first group and after the last one too, so that a shifted

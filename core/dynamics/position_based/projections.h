@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "core/dynamics/method_options.h"
@@ -16,9 +15,7 @@ class Projections {
  public:
   virtual ~Projections() = default;
 
-  /// Takes over pins that changed in number or vertex.
-  ///
-  /// inverse_masses  of each slot, see LaneView
+  /// Takes over pins that changed in number or vertex; inverse masses of each slot, see LaneView.
   virtual void refresh_pins(const ClothModel& model, const float* inverse_masses) = 0;
   /// Takes over changed rest lengths. Allocates nothing.
   virtual void refresh_rest_lengths(const ClothModel& model) = 0;

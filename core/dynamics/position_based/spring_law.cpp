@@ -1,15 +1,13 @@
 #include "core/dynamics/position_based/spring_law.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace pleat {
 namespace {
 
 /// Slack beside the inverse masses of a diagonal's ends, 2 where masses are alike: 0.7 of its error
-/// is corrected at a time. Both diagonals of a quad and its threads contradict each other. More
-/// slack stretches less still, but cloth shears more than measured fabric, and quads that pins pull
-/// to twice their size snap (docs/methods/multigrid.md).
+/// is corrected at a time. Both diagonals of a quad and its threads contradict each other. With
+/// more, cloth shears more than measured fabric (docs/methods/multigrid.md).
 constexpr float kDiagonalSlack = 0.857f;
 
 }  // namespace

@@ -58,14 +58,8 @@ void StepperPositionBased::refresh() {
   refresh_rest_lengths();
 }
 
-void StepperPositionBased::refresh_rest_lengths() { projections_->refresh_rest_lengths(model_); }
-
 LaneView StepperPositionBased::view() {
   return {lanes(move), {array(begin), array(begin + 1), array(begin + 2)}, array(inverse_mass)};
-}
-
-int StepperPositionBased::slot_of(VertexId vertex) const {
-  return layout_.places[static_cast<std::size_t>(vertex)].slot;
 }
 
 // Addresses are taken once, for a step's conversions go through all vertices.
@@ -104,7 +98,7 @@ void StepperPositionBased::set_motion(const MotionLanes& motion, int slot, const
 }
 
 void StepperPositionBased::load(const State& state) {
-  const StageScope scope(observer_, Stage::convert);
+  const PartScope scope(observer_, Part::convert);
   const double h = step_of(options());
   Vec3 least = state.positions.col(0);
   Vec3 most = least;
@@ -184,7 +178,7 @@ void StepperPositionBased::place_pins(double time_end, double h) {
 // the next time the drag of a vertex is f - r D (v' - v), with f and the bound D of its resistance
 // at the velocity v of then, v' that at a substep's end and r the share above.
 void StepperPositionBased::find_air_drag(State& state, double h) {
-  const StageScope scope(observer_, Stage::forces);
+  const PartScope scope(observer_, Part::forces);
   copy_to(state, h);
   forces_.setZero();
   model_.air->add_forces(state.positions, state.velocities, model_.hanging, forces_);
@@ -209,7 +203,7 @@ void StepperPositionBased::find_air_drag(State& state, double h) {
 }
 
 void StepperPositionBased::add_air_drag() {
-  const StageScope scope(observer_, Stage::forces);
+  const PartScope scope(observer_, Part::forces);
   const std::array<float*, 3> moves = lanes(move);
   const std::array<float*, 3> lows = lanes(rounded_off);
   const auto air = [this](std::size_t which, int slot) {
@@ -231,7 +225,7 @@ void StepperPositionBased::add_air_drag() {
 // Most vertices are far from solids or meet a single one: only the others are made double
 // precision of.
 void StepperPositionBased::resolve_contacts(double h) {
-  const StageScope scope(observer_, Stage::contact);
+  const PartScope scope(observer_, Part::contact);
   contact_->place_solids(*model_.contact, origin_, extent_);
   const MotionLanes now = motion();
   const MotionLanes at_begin = {now.begins, now.rounded_off, now.rounded_off};
@@ -275,7 +269,7 @@ SolveReport StepperPositionBased::substep(State& state, double time_end, double 
     add_air_drag();
   }
   {
-    const StageScope scope(observer_, Stage::solve);
+    const PartScope scope(observer_, Part::solve);
     carries() ? predict<true>() : predict<false>();
     place_pins(time_end, h);
     const LaneView v = view();
@@ -301,7 +295,7 @@ SolveReport StepperPositionBased::substep(State& state, double time_end, double 
 }
 
 void StepperPositionBased::store(State& state, SolveReport& report) {
-  const StageScope scope(observer_, Stage::convert);
+  const PartScope scope(observer_, Part::convert);
   copy_to(state, step_of(options()));
   for (std::size_t p = 0; p < model_.pins.size(); ++p) {
     state.positions.col(model_.pins[p].vertex.value) = model_.pins[p].position(time_end_);

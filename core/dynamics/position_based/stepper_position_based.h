@@ -28,7 +28,7 @@ class StepperPositionBased final : public Stepper {
                        MakeProjections make_projections = lane_projections);
 
   void refresh() override;
-  void refresh_rest_lengths() override;
+  void refresh_rest_lengths() override { projections_->refresh_rest_lengths(model_); }
   std::string remark() const override { return projections_->remark(); }
 
  protected:
@@ -61,7 +61,9 @@ class StepperPositionBased final : public Stepper {
     return {array(which), array(which + 1), array(which + 2)};
   }
   LaneView view();
-  int slot_of(VertexId vertex) const;
+  int slot_of(VertexId vertex) const {
+    return layout_.places[static_cast<std::size_t>(vertex)].slot;
+  }
   void take_from(const State& state, double h);
   void copy_to(State& state, double h);
   MotionLanes motion();

@@ -1,8 +1,6 @@
 #include "core/linalg/aggregation/dense_factor.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace pleat {
 namespace {
@@ -16,8 +14,6 @@ void DenseFactor::resize(int size) {
   size_ = size;
   values_.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), 0.0);
 }
-
-void DenseFactor::set_zero() { std::fill(values_.begin(), values_.end(), 0.0); }
 
 // A lost pivot is kept as 0, which `solve` reads as a row and column that are not there.
 void DenseFactor::compute() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -14,7 +15,7 @@ class DenseFactor {
   int size() const { return size_; }
   /// Entry of the matrix, to be filled on and below the diagonal before `compute`.
   double& entry(int row, int column) { return values_[place(row, column)]; }
-  void set_zero();
+  void set_zero() { std::fill(values_.begin(), values_.end(), 0.0); }
   void compute();
   /// Solves in place.
   void solve(double* x) const;

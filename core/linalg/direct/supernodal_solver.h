@@ -7,8 +7,7 @@
 namespace pleat {
 
 /// Sparse Cholesky, A = P' L L' P, of whole groups of columns at a time: several times as fast as
-/// one column after the other where the factor is much fuller than the matrix, as of meshes of
-/// tens of thousands of vertices.
+/// one after the other on meshes of tens of thousands of vertices.
 ///
 /// The multifrontal method: the rows of a group (supernodes.h) are a dense front, to which the
 /// matrix and the group's children add; its columns are eliminated, and what is left of it waits

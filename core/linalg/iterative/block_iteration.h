@@ -18,9 +18,7 @@ class BlockIteration : public LinearSolver {
 
   /// The matrix whose order of rows b_ and x_ have, or null where it is that of the unknowns.
   virtual const BlockMatrix* ordered() const { return nullptr; }
-  /// Goes from x_, or from zero when that is nearer, to |b - A x| <= tolerance |b|.
-  ///
-  /// b_norm  of b_, positive
+  /// Goes from x_, or from zero when that is nearer, to |b - A x| <= tolerance |b|, positive |b|.
   virtual SolveReport solve_column(double b_norm) = 0;
 
   static double norm(const std::vector<double>& values);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/linalg/iterative/block_iteration.h"
-#include "core/linalg/iterative/incomplete_preconditioning.h"
+#include "core/linalg/iterative/incomplete_factor.h"
 #include "core/linalg/iterative/multigrid_preconditioning.h"
 
 namespace pleat {
@@ -27,16 +27,86 @@ constexpr int kLookEvery = 4;
 constexpr int kPatience = 60;
 
 /// The most factorisations in a row that begin with multigrid once it had to take over: then the
-/// incomplete factor is tried again, at a twentieth of what they took. A first time is no habit, as
-/// of a run that begins far from rest: 0, 1, 3, 7 and 15 times in a row, from anew when the factor
-/// was fast enough.
+/// incomplete factor is tried again, at a twentieth of what they took. 0, 1, 3, 7 and 15 times in a
+/// row, from anew when the factor was fast enough.
 constexpr int kMultigridTurns = 15;
+
+/// An incomplete factor at no cost beside A's: it iterates on W = (P + L)^-1 A (P + L')^-1 in the
+/// metric of P. x moves along t = (P + L')^-1 p, and the residual of A x = b is (P + L) r.
+class IncompletePreconditioning final : public Preconditioning {
+ public:
+  void analyze(const SparseMatrix& lower) {
+    factor_.analyze(lower);
+    for (std::vector<double>* vector : {&r_, &z_, &p_, &t_, &s_})
+      vector->resize(static_cast<std::size_t>(lower.rows()));
+  }
+
+  /// See IncompleteFactor::compute.
+  int compute(const SparseMatrix& lower) { return factor_.compute(lower); }
+  const IncompleteFactor& factor() const { return factor_; }
+
+  double start(const std::vector<double>& b, const std::vector<double>& x) override {
+    factor_.multiply(x.data(), r_.data());
+    double squared = 0;
+    for (std::size_t k = 0; k < r_.size(); ++k) {
+      r_[k] = b[k] - r_[k];
+      squared += r_[k] * r_[k];
+    }
+    residual_ = std::sqrt(squared);
+    factor_.solve_lower(r_.data(), r_.data());
+    std::fill(p_.begin(), p_.end(), 0.0);
+    std::fill(s_.begin(), s_.end(), 0.0);
+    r_z_ = factor_.multiply_pivots(r_.data(), z_.data());
+    ratio_ = residual_ / std::sqrt(r_z_);
+    beta_ = 0;
+    return residual_;
+  }
+
+  double next_direction() override {
+    for (std::size_t k = 0; k < p_.size(); ++k) p_[k] = z_[k] + beta_ * p_[k];
+    return factor_.apply(p_.data(), t_.data(), s_.data());
+  }
+
+  void advance(double curvature, std::vector<double>& x) override {
+    const double alpha = r_z_ / curvature;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      x[k] += alpha * t_[k];
+      r_[k] -= alpha * (t_[k] + s_[k]);
+      s_[k] = 0;
+    }
+    const double last_r_z = r_z_;
+    r_z_ = factor_.multiply_pivots(r_.data(), z_.data());
+    beta_ = r_z_ / last_r_z;
+  }
+
+  // |(P + L) r| takes half a product: it is looked at closely when |r|, in the metric of P, has
+  // fallen as far as it has to by the ratio that both had last.
+  double residual(double goal, Look look) override {
+    residual_ = ratio_ * std::sqrt(r_z_);
+    if (residual_ > goal && look == Look::passing) return residual_;
+    residual_ = factor_.norm_of_lower_product(r_.data());
+    ratio_ = residual_ / std::sqrt(r_z_);
+    return residual_;
+  }
+
+ private:
+  IncompleteFactor factor_;
+  std::vector<double> r_;
+  std::vector<double> z_;  // P r
+  std::vector<double> p_;
+  std::vector<double> t_;
+  std::vector<double> s_;  // W p - t
+  double residual_ = 0;    // |b - A x|, as far as it is known
+  double r_z_ = 0;         // r'z
+  double ratio_ = 0;       // ratio of the residual to the root of r'z, when both were last known
+  double beta_ = 0;
+};
 
 class ConjugateGradient final : public BlockIteration {
  public:
   explicit ConjugateGradient(const SolverOptions& options) : BlockIteration(options) {}
 
-  void set_places(const Eigen::Ref<const Eigen::VectorXd>& places) override {
+  void set_places(const VectorView& places) override {
     places_.assign(places.data(), places.data() + places.size());
   }
 

@@ -1,10 +1,11 @@
 #include "core/linalg/iterative/incomplete_factor.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
-#include "core/linalg/iterative/positive_part.h"
+#include "core/base/vec.h"
 
 namespace pleat {
 namespace {
@@ -15,6 +16,15 @@ constexpr double kLeastPivot = 1e-8;
 /// Share of the diagonal's trace from which on the positive part of a block counts: smaller ones,
 /// as bending's are, cost few pivots.
 constexpr double kLeastPositive = 0.01;
+
+/// The symmetric part of a 3 x 3 block without its negative eigenvalues, packed.
+std::array<double, kPackedSize> positive_part(const double* block) {
+  const Eigen::Map<const Mat3> B(block);  // transposed, which is as good
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen((B + B.transpose()) / 2);
+  const Mat3 part = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+                    eigen.eigenvectors().transpose();
+  return {part(0, 0), part(1, 0), part(1, 1), part(2, 0), part(2, 1), part(2, 2)};
+}
 
 /// y -= B x
 inline void subtract_product(const double* B, const double* x, double* y) {

@@ -1,6 +1,5 @@
 #include "core/linalg/iterative/multigrid_preconditioning.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 

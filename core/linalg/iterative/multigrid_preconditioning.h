@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-
 #include "core/linalg/aggregation/multigrid.h"
 #include "core/linalg/iterative/incomplete_factor.h"
 #include "core/linalg/iterative/preconditioning.h"

@@ -103,8 +103,7 @@ class Tridiagonal {
 };
 
 /// The block rows of a matrix by colour: rows of one colour have no block with each other, so that
-/// a sweep need not wait for one to go on with the next. Each row has all of its blocks, those
-/// above the diagonal too, one after the other as a sweep reads them.
+/// a sweep need not wait for one to go on with the next. Each row has all of its blocks.
 class ColouredRows {
  public:
   void analyze(const SparseMatrix& lower) {

@@ -2,7 +2,6 @@
 
 #include "core/base/check.h"
 #include "core/mesh/smooth_surface.h"
-#include "core/scene/vertex_place.h"
 
 namespace pleat {
 namespace {
@@ -71,17 +70,11 @@ VertexGroup refined(const VertexGroup& base, const QuadMesh& quads) {
 
 }  // namespace
 
-const char* GarmentCloth::key() const { return "garment"; }
-
 Json GarmentCloth::json() const {
   if (const auto* skirt = std::get_if<SkirtMeasures>(&measures))
     return {{"skirt", json_measures(*skirt, kSkirtLengths)}};
   return {{"trousers", json_measures(std::get<TrouserMeasures>(measures), kTrouserLengths)}};
 }
-
-double GarmentCloth::rest_diagonal() const { return box_diagonal(garment.patch.rest_positions); }
-
-QuadMesh GarmentCloth::base_quads() const { return QuadMesh::from_patch(garment.patch); }
 
 RestCloth GarmentCloth::at_rest(QuadMesh quads) const {
   RestCloth cloth = flat_rest_cloth(std::move(quads));
@@ -89,14 +82,6 @@ RestCloth GarmentCloth::at_rest(QuadMesh quads) const {
   for (const VertexGroup& group : garment.groups)
     cloth.groups.push_back(refined(group, *cloth.quads));
   return cloth;
-}
-
-std::string GarmentCloth::read_part(const JsonReader& reader) const {
-  return read_group(reader, garment.groups).name;
-}
-
-std::vector<VertexId> GarmentCloth::base_part(const std::string& name) const {
-  return vertices_of(garment.groups, name);
 }
 
 GarmentCloth read_garment(const JsonReader& reader, const SceneBody* body) {

@@ -1,10 +1,8 @@
 #include "core/scene/cloth/knit_cloth.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/base/check.h"
-#include "core/scene/sheet_section.h"
 
 namespace pleat {
 namespace {
@@ -80,8 +78,6 @@ Json json_knit_spring(const KnitSpring& spring) {
 
 }  // namespace
 
-const char* KnitCloth::key() const { return "knit"; }
-
 // Key by key, as write_scene does.
 Json KnitCloth::json() const {
   Json json = json_sheet_shape(kKnitWords, shape);
@@ -97,10 +93,6 @@ Json KnitCloth::json() const {
   return json;
 }
 
-std::int64_t KnitCloth::n_vertices(int) const {
-  return (std::int64_t{shape.columns} + 1) * (shape.rows + 1);
-}
-
 RestCloth KnitCloth::at_rest(int) const {
   RestCloth cloth = flat_rest_cloth(QuadMesh::sheet(shape));
   cloth.quads.reset();
@@ -110,14 +102,6 @@ RestCloth KnitCloth::at_rest(int) const {
                                      knit_springs(*this, cloth.start),
                                      {}};
   return cloth;
-}
-
-double KnitCloth::rest_diagonal() const { return std::hypot(shape.width, shape.height); }
-
-std::string KnitCloth::read_part(const JsonReader& reader) const { return read_sheet_part(reader); }
-
-std::vector<VertexId> KnitCloth::base_part(const std::string& name) const {
-  return sheet_part(shape, name);
 }
 
 KnitCloth read_knit(const JsonReader& reader) {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cmath>
+
 #include "core/scene/cloth_source.h"
+#include "core/scene/sheet_section.h"
 
 namespace pleat {
 
@@ -26,7 +29,6 @@ struct KnitPattern {
 /// (structural: warp along the wales, weft along the courses), across both diagonals (shear) and to
 /// every second particle of their row and column (bending). A spring is as stiff as the mean of
 /// what its ends' wales ask for; dampers are everywhere alike. Its parts are those of a sheet.
-///
 /// Source: docs/methods/wool.md.
 class KnitCloth final : public ClothSource {
  public:
@@ -38,14 +40,18 @@ class KnitCloth final : public ClothSource {
   KnitPattern pattern;
   Vec3 initial_velocity{0, 0, 0};  ///< [m/s]
 
-  const char* key() const override;
+  const char* key() const override { return "knit"; }
   Json json() const override;
-  std::int64_t n_vertices(int level) const override;
+  std::int64_t n_vertices(int) const override {
+    return (std::int64_t{shape.columns} + 1) * (shape.rows + 1);
+  }
   RestCloth at_rest(int level) const override;
-  double rest_diagonal() const override;
+  double rest_diagonal() const override { return std::hypot(shape.width, shape.height); }
   bool is_surface() const override { return false; }
-  std::string read_part(const JsonReader& reader) const override;
-  std::vector<VertexId> base_part(const std::string& name) const override;
+  std::string read_part(const JsonReader& reader) const override { return read_sheet_part(reader); }
+  std::vector<VertexId> base_part(const std::string& name) const override {
+    return sheet_part(shape, name);
+  }
 };
 
 /// The section "knit" of a scene's cloth.

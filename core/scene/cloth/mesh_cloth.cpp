@@ -5,7 +5,6 @@
 #include "core/mesh/mesh_fault.h"
 #include "core/scene/cloth/mesh_threads.h"
 #include "core/scene/vertex_arrays.h"
-#include "core/scene/vertex_place.h"
 
 namespace pleat {
 namespace {
@@ -76,8 +75,6 @@ void read_warp_directions(const JsonReader& reader, TriangleMesh& mesh) {
 
 }  // namespace
 
-const char* MeshCloth::key() const { return "mesh"; }
-
 Json MeshCloth::json() const {
   Json json;
   json["positions_m"] = json_columns(mesh.rest_positions);
@@ -132,18 +129,6 @@ RestCloth MeshCloth::at_rest(int level) const {
     cloth.rest_coordinates.col(column++) =
         (cloth.rest_coordinates.col(a) + cloth.rest_coordinates.col(b)) / 2;
   return cloth;
-}
-
-double MeshCloth::rest_diagonal() const {
-  return mesh.rest_positions.cols() == 0 ? 0 : box_diagonal(mesh.rest_positions);
-}
-
-std::string MeshCloth::read_part(const JsonReader& reader) const {
-  return read_group(reader, groups).name;
-}
-
-std::vector<VertexId> MeshCloth::base_part(const std::string& name) const {
-  return vertices_of(groups, name);
 }
 
 Vec3 read_initial_velocity(const JsonReader& reader) {

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/scene/cloth_source.h"
+#include "core/scene/vertex_place.h"
 
 namespace pleat {
 
@@ -16,15 +17,21 @@ class MeshCloth final : public ClothSource {
   Vec3 initial_velocity{0, 0, 0};                      ///< [m/s]
   std::string skipped;  ///< skipped statements of its file (skipped_sentence)
 
-  const char* key() const override;
+  const char* key() const override { return "mesh"; }
   /// Always written out, so that the text is the whole scene.
   Json json() const override;
   std::string remark() const override { return skipped; }
   std::int64_t n_vertices(int level) const override;
   RestCloth at_rest(int level) const override;
-  double rest_diagonal() const override;
-  std::string read_part(const JsonReader& reader) const override;
-  std::vector<VertexId> base_part(const std::string& name) const override;
+  double rest_diagonal() const override {
+    return mesh.rest_positions.cols() == 0 ? 0 : box_diagonal(mesh.rest_positions);
+  }
+  std::string read_part(const JsonReader& reader) const override {
+    return read_group(reader, groups).name;
+  }
+  std::vector<VertexId> base_part(const std::string& name) const override {
+    return vertices_of(groups, name);
+  }
 };
 
 /// The key "initial_velocity_m_per_s" [m/s]; rest without it.

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/base/check.h"
-#include "core/mesh/mesh_lines.h"
 
 namespace pleat {
 namespace {

@@ -8,9 +8,7 @@
 namespace pleat {
 
 /// The section "mesh" of a scene's cloth: a mesh written out (read_written_mesh), or the name of an
-/// OBJ file.
-///
-/// Faults of an OBJ file are InputErrors at "name: line N".
+/// OBJ file, whose faults are InputErrors at "name: line N".
 MeshCloth read_mesh_cloth(const JsonReader& reader, const FileSource& files,
                           const std::optional<Vec3>& usual_warp = std::nullopt);
 

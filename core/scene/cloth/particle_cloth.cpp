@@ -1,6 +1,5 @@
 #include "core/scene/cloth/particle_cloth.h"
 
-#include "core/base/check.h"
 #include "core/scene/vertex_arrays.h"
 
 namespace pleat {
@@ -54,8 +53,6 @@ Json json_bend(const BendElement& bend) {
 
 }  // namespace
 
-const char* ParticleCloth::key() const { return "particles"; }
-
 // Key by key, as write_scene does.
 Json ParticleCloth::json() const {
   Json json;
@@ -72,8 +69,6 @@ Json ParticleCloth::json() const {
   return json;
 }
 
-std::int64_t ParticleCloth::n_vertices(int) const { return positions.cols(); }
-
 RestCloth ParticleCloth::at_rest(int) const {
   RestCloth cloth;
   cloth.mesh = {positions, triangles, {}};
@@ -81,18 +76,6 @@ RestCloth ParticleCloth::at_rest(int) const {
   cloth.start_velocities = velocities;
   cloth.given_springs = GivenSprings{masses, springs, bends};
   return cloth;
-}
-
-double ParticleCloth::rest_diagonal() const {
-  return positions.cols() == 0 ? 0 : box_diagonal(positions);
-}
-
-std::string ParticleCloth::read_part(const JsonReader& reader) const {
-  reader.fail("listed vertices or a box, as particles have no parts");
-}
-
-std::vector<VertexId> ParticleCloth::base_part(const std::string&) const {
-  throw ContractError("particles have no parts");
 }
 
 ParticleCloth read_particles(const JsonReader& reader) {

@@ -1,7 +1,6 @@
 #include "core/scene/deform/deform_scene.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "core/base/check.h"

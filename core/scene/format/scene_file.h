@@ -22,9 +22,7 @@ class JsonReader;
 Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics,
                  const FileSource& files = {}, const SceneTables& tables = {});
 
-/// Reads a scene that is parsed already.
-///
-/// root  of the scene's own document
+/// Reads a scene that is parsed already, from the root of its own document.
 Scene read_scene(const JsonReader& root, const FabricLibrary& fabrics, const FileSource& files = {},
                  const SceneTables& tables = {});
 

@@ -1,7 +1,5 @@
 #include "core/dynamics/position_based/lanes/bend_program.h"
 
-#include <algorithm>
-
 namespace pleat {
 namespace {
 
@@ -55,10 +53,6 @@ BendProgram::BendProgram(const ClothModel& model, const LaneLayout& layout, doub
   multipliers_.resize(operations_.size() * kMultiplierFloats);
 }
 
-void BendProgram::compute_lane_by_lane() {
-  for (OperationStretch& stretch : stretches_) stretch.whole = false;
-}
-
 // C = b_0 (x_0 - x_1) + b_2 (x_2 - x_1), a vector; each component is a linear constraint of its own
 // with the same denominator.
 template <bool first>
@@ -104,8 +98,6 @@ void BendProgram::sweep(const LaneView& view) {
 void BendProgram::sweep(const LaneView& view, bool is_first) {
   is_first ? sweep<true>(view) : sweep<false>(view);
 }
-
-void BendProgram::forget() { std::fill(multipliers_.begin(), multipliers_.end(), 0.0f); }
 
 double BendProgram::squared_residual(const LaneView& v) const {
   Float4 sum = Float4::all(0);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/dynamics/position_based/lane_layout.h"
@@ -17,13 +18,15 @@ class BendProgram {
   /// Projects each element once; the first sweep of a substep starts from multipliers of zero.
   void sweep(const LaneView& view, bool is_first);
   /// Makes the multipliers zero.
-  void forget();
+  void forget() { std::fill(multipliers_.begin(), multipliers_.end(), 0.0f); }
 
   /// Sum of |C + compliance/h^2 lambda|^2 [m^2].
   double squared_residual(const LaneView& view) const;
 
   /// Works on the lanes one after the other: same result, to hold the two against each other.
-  void compute_lane_by_lane();
+  void compute_lane_by_lane() {
+    for (OperationStretch& stretch : stretches_) stretch.whole = false;
+  }
 
  private:
   struct Operation {

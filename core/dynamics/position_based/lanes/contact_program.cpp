@@ -101,7 +101,7 @@ ContactProgram::ContactProgram(const LaneLayout& layout) : n_slots_(layout.n_slo
   left_over_.reserve(static_cast<std::size_t>(n_slots_));
 }
 
-void ContactProgram::begin_step(const ContactStage& contact, const LaneLayout& layout) {
+void ContactProgram::begin_step(const ContactPass& contact, const LaneLayout& layout) {
   const Eigen::VectorXd& radii = contact.options().face_radii;
   face_squares_.assign(static_cast<std::size_t>(n_slots_), 0.0f);
   for (Eigen::Index i = 0; i < radii.size(); ++i) {
@@ -142,14 +142,14 @@ void ContactProgram::place(const SweptSphere& ball, const Vec3& origin, double e
 // |b - c| <= r + d, with c the middle of the centre's own way of length s and r larger by s/2. What
 // one solid makes of the way ends within d + 2 s of where it began. So no other one is met where
 // |b - c| > r + d + 3 s.
-void ContactProgram::place_solids(const ContactStage& contact, const Vec3& origin, double extent) {
+void ContactProgram::place_solids(const ContactPass& contact, const Vec3& origin, double extent) {
   contact.outlines(outlines_);
   solids_.clear();
   near_.resize(outlines_.size());
   hits_.resize(outlines_.size());
   for (Slots& hits : hits_) hits.slots.resize(static_cast<std::size_t>(n_slots_) + 1);
   double longest_shift = 0;
-  for (const ContactStage::Outline& outline : outlines_) {
+  for (const ContactPass::Outline& outline : outlines_) {
     Solid solid{};
     solid.is_exact = outline.is_exact;
     solid.friction = static_cast<float>(outline.friction);
@@ -166,7 +166,7 @@ void ContactProgram::place_solids(const ContactStage& contact, const Vec3& origi
   list_cones(contact);
 }
 
-void ContactProgram::list_cones(const ContactStage& contact) {
+void ContactProgram::list_cones(const ContactPass& contact) {
   const std::size_t n_before = cones_.size();
   others_.clear();
   cones_.clear();
@@ -188,7 +188,7 @@ void ContactProgram::list_cones(const ContactStage& contact) {
 }
 
 // A point at x, from the origin o, is carried to R (o + x) + t, seen from o.
-void ContactProgram::place_cone(const ContactStage& contact, const ContactStage::Outline& outline,
+void ContactProgram::place_cone(const ContactPass& contact, const ContactPass::Outline& outline,
                                 const Vec3& origin, Solid& solid) {
   const SweptCone& cone = *outline.cone;
   const Mat3 turn = outline.carry.rotation - Mat3::Identity();
@@ -429,7 +429,7 @@ void ContactProgram::look_at_cones(Group& group) {
 // A vertex that hits one solid is answered for here if the answer cannot lead it into another: its
 // end moves by no more than the length of its way, seen from the solid, so that it does not reach a
 // cone whose height above its start is larger than that and its way. Every plane and ball in the
-// list is within reach. Vertices that start deep inside, or beside a bound, are for ContactStage.
+// list is within reach. Vertices that start deep inside, or beside a bound, are for ContactPass.
 int ContactProgram::assign_hits(const Group& group) {
   const std::span<const Near> near = std::span<const Near>(near_).first(n_near_);
   const auto is_cone = [&](const Near& one) {

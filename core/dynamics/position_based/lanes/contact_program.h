@@ -1,10 +1,9 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
-#include "core/contact/contact_stage.h"
+#include "core/contact/contact_pass.h"
 #include "core/dynamics/position_based/lane_layout.h"
 #include "core/dynamics/position_based/lane_operations.h"
 #include "core/dynamics/position_based/lanes/group_freedom.h"
@@ -13,23 +12,21 @@
 namespace pleat {
 
 /// Contact of four vertices at a time, in single precision: which of them may meet a solid, and,
-/// where that is one plane, ball or rounded cone, what ContactStage would make of it. It holds
+/// where that is one plane, ball or rounded cone, what ContactPass would make of it. It holds
 /// vertices further off by what single precision rounds off. What else there is it leaves to
-/// ContactStage.
-///
-/// Source: docs/methods/contact.md, "In lanes".
+/// ContactPass. Source: docs/methods/contact.md, "In lanes".
 class ContactProgram {
  public:
   explicit ContactProgram(const LaneLayout& layout);
 
   /// Takes how far off solids hold the vertices, which may be anywhere.
-  void begin_step(const ContactStage& contact, const LaneLayout& layout);
+  void begin_step(const ContactPass& contact, const LaneLayout& layout);
 
   /// Takes the solids of the substep that was begun.
   ///
   /// origin  of the lanes' positions [m]
   /// extent  how far from it vertices are, about [m]: rounding grows with it
-  void place_solids(const ContactStage& contact, const Vec3& origin, double extent);
+  void place_solids(const ContactPass& contact, const Vec3& origin, double extent);
 
   /// Corrects the moves of vertices that meet one solid.
   ///
@@ -81,9 +78,9 @@ class ContactProgram {
   static Float4 gap_of(const Solid& solid, const Vec3Lanes<Float4>& place);
   static void place(const SweptPlane& plane, const Vec3& origin, double extent, Solid& solid);
   static void place(const SweptSphere& ball, const Vec3& origin, double extent, Solid& solid);
-  static void place_cone(const ContactStage& contact, const ContactStage::Outline& outline,
+  static void place_cone(const ContactPass& contact, const ContactPass::Outline& outline,
                          const Vec3& origin, Solid& solid);
-  void list_cones(const ContactStage& contact);
+  void list_cones(const ContactPass& contact);
   static int near_lanes(const Solid& solid, const Vec3Lanes<Float4>& begin, Float4 length);
   static Ways ways(const Solid& solid, const Vec3Lanes<Float4>& begin,
                    const Vec3Lanes<Float4>& move, const Vec3Lanes<Float4>& low);
@@ -104,7 +101,7 @@ class ContactProgram {
 
   int n_slots_;
   std::vector<float> face_squares_;  // squared radius of each slot's faces [m^2]; where cones are
-  std::vector<ContactStage::Outline> outlines_;
+  std::vector<ContactPass::Outline> outlines_;
   std::vector<Solid> solids_;
   std::vector<int> others_;         // planes, balls and bounds among the solids
   std::vector<int> cones_;          // exact ones

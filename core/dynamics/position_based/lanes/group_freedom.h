@@ -22,11 +22,10 @@ class GroupFreedom {
   /// stretch  of ways within the substep, for the turns of the solids
   void begin_substep(std::span<const float> shifts, float stretch);
 
-  /// Spends the substep of a group, and calls look(solid) for each that it may meet.
-  ///
-  /// way  longest of its vertices, in the drifting frame [m]
-  template <class Look>
-  void spend(int group, float way, const Look& look) {
+  /// Spends the substep of a group, whose longest way in the drifting frame this is [m], and calls
+  /// meet(solid) for each that it may meet.
+  template <class Meet>
+  void spend(int group, float way, const Meet& meet) {
     float* const free = of(group);
     for (int solid = 0; solid < n_padded_; solid += Float4::kLanes) {
       const Float4 spent = Float4::all(way) + Float4::load(shifts_.data() + solid);
@@ -35,7 +34,7 @@ class GroupFreedom {
       const int lanes = positive_lanes(Float4::all(stretch_) * spent - left);
       if (lanes == 0) continue;
       for (int lane = 0; lane < Float4::kLanes; ++lane)
-        if (lanes >> lane & 1) look(solid + lane);
+        if (lanes >> lane & 1) meet(solid + lane);
     }
   }
 

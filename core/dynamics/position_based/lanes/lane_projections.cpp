@@ -11,10 +11,6 @@ void LaneProjections::refresh_rest_lengths(const ClothModel& model) {
   hanging_.refresh_rest_lengths(model);
 }
 
-void LaneProjections::solve(const LaneView& view, int rounds) {
-  for (int round = 0; round < rounds; ++round) sweep(view, round == 0);
-}
-
 void LaneProjections::sweep(const LaneView& view, bool is_first) {
   bends_.sweep(view, is_first);
   springs_.sweep(view, is_first);

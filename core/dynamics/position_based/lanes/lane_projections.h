@@ -17,7 +17,9 @@ class LaneProjections final : public Projections {
   void refresh_pins(const ClothModel&, const float*) override {}
   void refresh_rest_lengths(const ClothModel& model) override;
 
-  void solve(const LaneView& view, int rounds) override;
+  void solve(const LaneView& view, int rounds) override {
+    for (int round = 0; round < rounds; ++round) sweep(view, round == 0);
+  }
   /// One round; the first of a substep starts from multipliers of zero.
   void sweep(const LaneView& view, bool is_first);
 

@@ -1,7 +1,5 @@
 #include "core/dynamics/position_based/lanes/spring_program.h"
 
-#include <algorithm>
-#include <cmath>
 #include <functional>
 #include <string_view>
 
@@ -13,9 +11,8 @@ namespace {
 /// 1/kLineSoftness times as hard.
 constexpr float kLineSoftness = 1e-3f;
 /// Largest pull f of a line, times twice the largest inverse mass in it. A pull moves vertices
-/// across the line too, along directions from before the solution; from 1/2 on, waves across the
-/// line pass more than a link per substep and grow (docs/methods/xpbd.md). Projecting a spring
-/// alone reaches 1/4 however far it is stretched.
+/// across the line too, along directions from before the solution; from 1/2 on, waves across it
+/// grow (docs/methods/xpbd.md). A spring alone reaches 1/4.
 constexpr float kLargestPull = 0.3f;
 /// Groups of four kept per spring of a line between elimination and substitution: its pull as far
 /// as the rows before it say, the share of the next pull in it, its direction g, and what its
@@ -87,12 +84,6 @@ void SpringProgram::fill_blocks(const ClothModel& model) {
     }
     operations_[i].block = remembered[at];
   }
-}
-
-void SpringProgram::refresh_rest_lengths(const ClothModel& model) { fill_blocks(model); }
-
-void SpringProgram::compute_lane_by_lane() {
-  for (OperationStretch& stretch : stretches_) stretch.whole = false;
 }
 
 float* SpringProgram::line_scratch(int row, int channel) {
@@ -224,8 +215,6 @@ void SpringProgram::sweep(const LaneView& view, bool is_first) {
     is_first ? sweep<kLaw, true>(view) : sweep<kLaw, false>(view);
   });
 }
-
-void SpringProgram::forget() { std::fill(multipliers_.begin(), multipliers_.end(), 0.0f); }
 
 double SpringProgram::squared_residual(const LaneView& v) const {
   return with_law(law_, [&](auto constant) {

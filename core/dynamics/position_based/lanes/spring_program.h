@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/dynamics/position_based/lanes/spring_order.h"
@@ -8,28 +9,29 @@
 namespace pleat {
 
 /// The springs of a model that join no hanging vertex, compiled into operations on four of them at
-/// a time and into an order. Springs that follow on one another across the rows are solved
-/// together, a line at a time; then the others are projected one after the other, each seeing what
-/// those before it did.
+/// a time and into an order. Springs that follow on one another across the rows are solved a line
+/// at a time; then the others are projected one after the other.
 class SpringProgram {
  public:
   /// h  substep [s]
   SpringProgram(const ClothModel& model, const LaneLayout& layout, SpringLaw law, double h);
 
   /// Takes over changed rest lengths. Allocates nothing.
-  void refresh_rest_lengths(const ClothModel& model);
+  void refresh_rest_lengths(const ClothModel& model) { fill_blocks(model); }
 
   /// Projects each spring once; the first sweep of a substep starts from multipliers of zero.
   void sweep(const LaneView& view, bool is_first);
   /// Makes the multipliers zero.
-  void forget();
+  void forget() { std::fill(multipliers_.begin(), multipliers_.end(), 0.0f); }
 
   /// Sum of (C + compliance/h^2 lambda)^2 [m^2].
   double squared_residual(const LaneView& view) const;
 
   /// Works on the lanes of what is in no line one after the other: same result, to hold the two
   /// against each other.
-  void compute_lane_by_lane();
+  void compute_lane_by_lane() {
+    for (OperationStretch& stretch : stretches_) stretch.whole = false;
+  }
 
   std::size_t n_operations() const { return operations_.size(); }
   std::size_t n_blocks() const { return blocks_.size(); }

@@ -129,8 +129,7 @@ std::vector<PlaceLength> long_range_attachments(const ClothModel& model,
   for (const std::vector<VertexId>& patch : patches_of(model))
     by_patch.push_back(is_rectangle ? nearest_on_rectangle(model.rest_coordinates, patch)
                                     : nearest_by_roads(roads, patch));
-  std::vector<bool> is_pinned(static_cast<std::size_t>(model.n_vertices()), false);
-  for (const Pin& pin : model.pins) is_pinned[pin.vertex] = true;
+  const std::vector<bool> is_pinned = model.pinned();
   std::vector<PlaceLength> lengths;
   std::vector<Nearest> holds;
   for (int v = 0; v < model.n_vertices(); ++v) {

@@ -13,9 +13,8 @@ namespace pleat {
 /// of pins joined by springs, at its nearest pin, and for the four nearest patches at most. Places
 /// are vertices.
 ///
-/// hierarchy  of the model's surface, or without levels. Lengths are exact on a flat sheet that
-///            fills a rectangle; elsewhere those of shortest paths along edges of all levels and
-///            springs, which are a little longer.
+/// Lengths are exact on a flat sheet that fills a rectangle; elsewhere those of shortest paths
+/// along edges of all levels and springs, a little longer. The hierarchy may be without levels.
 /// Source: Kim, Chentanez & Mueller-Fischer, Long range attachments, SCA 2012.
 std::vector<PlaceLength> long_range_attachments(const ClothModel& model,
                                                 const MeshHierarchy& hierarchy);

@@ -7,8 +7,7 @@
 namespace pleat {
 namespace {
 
-/// Share of its correction that a level hands back. Levels see the same stretch one after the
-/// other, and interpolated moves are not smooth: all of it throws cloth that lies on a solid
+/// Share of its correction that a level hands back. All of it throws cloth that lies on a solid
 /// (docs/methods/multigrid.md).
 constexpr double kShare = 0.5;
 

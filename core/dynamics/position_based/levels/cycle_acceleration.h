@@ -9,7 +9,7 @@ namespace pleat {
 
 /// Foretells from the last cycles of a solve where they lead. Of all sums of points, of weights
 /// that add up to 1, it proposes the one whose errors would be least if they were linear in the
-/// points. With errors that are, cycles x + P e(x) become GMRES with the preconditioner P.
+/// points.
 ///
 /// A point is whatever a cycle changes: moves, and multipliers. What errors a proposal really has
 /// is asked for; where they are not less than without, the point stays where the cycle led, and the
@@ -20,9 +20,8 @@ namespace pleat {
 /// nonlinear integral equations, Journal of the ACM 1965.
 class CycleAcceleration {
  public:
-  /// Points that a proposal is made of, beside the last one. To a tenth of the error of a folded
-  /// sheet of 129x129 vertices three fewer cycles than with three; eight save another six, and cost
-  /// three times as much.
+  /// Points that a proposal is made of, beside the last one. Eight save some cycles, and cost three
+  /// times as much.
   static constexpr std::size_t kWindow = 4;
 
   /// Arrays side by side, each of a multiple of four numbers.
@@ -31,10 +30,8 @@ class CycleAcceleration {
   /// Forgets all cycles.
   void begin() { n_known_ = 0; }
 
-  /// Takes the point that a cycle led to, and moves it where it has a proposal. Returns true then:
-  /// it is to be settled with the errors there.
-  ///
-  /// errors  at the point, a multiple of four
+  /// Takes the point that a cycle led to, with its errors, a multiple of four, and moves it where
+  /// it has a proposal. Returns true then: it is to be settled with the errors there.
   bool propose(Arrays point, std::span<const float> errors);
 
   /// Takes a proposal that is no better back, and the errors with it. Follows `propose`, with the

@@ -1,17 +1,19 @@
 #include "core/dynamics/position_based/levels/cycle_projections.h"
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/dynamics/position_based/lanes/hanging_program.h"
 #include "core/dynamics/position_based/lanes/lane_projections.h"
 #include "core/dynamics/position_based/levels/attachments.h"
 #include "core/dynamics/position_based/levels/coarse_levels.h"
 #include "core/dynamics/position_based/levels/cycle_acceleration.h"
-#include "core/dynamics/position_based/levels/gathered_sweeps.h"
+#include "core/dynamics/position_based/levels/gathered_bends.h"
+#include "core/dynamics/position_based/levels/gathered_springs.h"
+#include "core/dynamics/position_based/levels/gathered_vertices.h"
 #include "core/dynamics/position_based/levels/strain_correction.h"
 
 namespace pleat {
@@ -23,12 +25,6 @@ HierarchyOptions hierarchy_options(const MethodOptions& options) {
   hierarchy.ratio = options.ratio;
   hierarchy.selection = options.selection;
   return hierarchy;
-}
-
-std::vector<bool> pinned(const ClothModel& model) {
-  std::vector<bool> is_pinned(static_cast<std::size_t>(model.n_vertices()), false);
-  for (const Pin& pin : model.pins) is_pinned[pin.vertex] = true;
-  return is_pinned;
 }
 
 /// omega  0: the usual one
@@ -43,7 +39,7 @@ Relaxation relaxation(Smoother smoother, double omega) {
 MeshHierarchy hierarchy_of(const ClothModel& model, const MethodOptions& options) {
   if (options.levels == 0 || model.surface.triangles.empty()) return {};
   MeshHierarchy hierarchy =
-      mesh_hierarchy(model.surface, pinned(model), hierarchy_options(options));
+      mesh_hierarchy(model.surface, model.pinned(), hierarchy_options(options));
   for (MeshLevel& level : hierarchy.levels)
     std::erase_if(level.edges, [&](const LevelEdge& edge) {
       return model.hangs(level.vertices[edge.a]) || model.hangs(level.vertices[edge.b]);
@@ -71,6 +67,53 @@ std::string lines_remark(const MethodOptions& options, const LaneLayout& layout)
                         : "the other smoother is none";
   return std::string("gauss_seidel in the place of lines, as ") + why;
 }
+
+/// The constraints of a cloth's own mesh, whatever that is, one after the other: springs in sets
+/// that share no vertex, four at a time.
+struct GatheredSweeps {
+  GatheredSprings springs;
+  GatheredBends bends;
+  HangingProgram hanging;
+
+  GatheredSweeps(const ClothModel& model, const LaneLayout& layout, SpringLaw law, double h)
+      : springs(model, layout, law, h), bends(model, layout, h), hanging(model, layout, law, h) {}
+
+  void refresh_pins(const float* inverse_masses) {
+    springs.refresh_pins(inverse_masses);
+    bends.refresh_pins(inverse_masses);
+  }
+
+  void refresh_rest_lengths(const ClothModel& model) {
+    springs.refresh_rest_lengths(model);
+    hanging.refresh_rest_lengths(model);
+  }
+
+  /// Projects each constraint once. The first sweep of a substep starts from multipliers of zero.
+  void sweep(GatheredVertices& vertices, const Relaxation& relaxation, bool is_first) {
+    const float* const begins = vertices.begins();
+    float* const moves = vertices.moves();
+    if (is_first) {
+      springs.forget();
+      bends.forget();
+    }
+    bends.sweep(begins, moves,
+                relaxation.smoother == Smoother::sor ? static_cast<float>(relaxation.omega) : 1.0f);
+    springs.sweep(begins, moves, relaxation);
+    if (!hanging.empty()) hanging.sweep(vertices.lanes(), is_first);
+  }
+
+  void forget() {
+    springs.forget();
+    bends.forget();
+    hanging.forget();
+  }
+
+  double squared_residual(GatheredVertices& vertices) const {
+    const double of_hanging = hanging.squared_residual(vertices.lanes());
+    return of_hanging + springs.squared_residual(vertices.begins(), vertices.moves()) +
+           bends.squared_residual(vertices.begins(), vertices.moves());
+  }
+};
 
 /// Sweeps of the finest level after each correction by strains: half of what the cycle costs.
 constexpr int kSweepsByStrain = 3;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <span>
 #include <vector>
 
@@ -19,18 +18,14 @@ class GatheredBends {
   /// Takes over changed inverse masses, of each slot, see LaneView. Allocates nothing.
   void refresh_pins(const float* inverse_masses);
 
-  /// Projects each element once.
-  ///
-  /// omega  times what a projection alone would correct
+  /// Projects each element once; `omega` times what a projection alone would correct.
   void sweep(const float* begins, float* moves, float omega);
 
   /// Makes the multipliers zero.
   void forget() { std::fill(multipliers_.begin(), multipliers_.end(), 0.0f); }
   std::span<float> multipliers() { return multipliers_; }
   std::size_t n_errors() const { return multipliers_.size(); }
-  /// (C + compliance/h^2 lambda)/unit of each element, four numbers each.
-  ///
-  /// unit  [m]
+  /// (C + compliance/h^2 lambda)/unit of each element, four numbers each; the unit in [m].
   void errors(const float* begins, const float* moves, float unit, float* errors) const;
 
   /// Sum of |C + compliance/h^2 lambda|^2 [m^2].

@@ -1,6 +1,5 @@
 #include "core/dynamics/position_based/levels/gathered_springs.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "core/dynamics/position_based/levels/quad_vectors.h"

@@ -12,8 +12,7 @@ using PlacePair = std::array<int, 2>;
 /// that has room for it, in their order. What a sweep over the sets makes of the places does not
 /// depend on the order within a set.
 ///
-/// moves  of each place
-/// Returns indices into `elements`, ascending in each set.
+/// Returns indices into `elements`, ascending in each set; `moves` is of each place.
 std::vector<std::vector<int>> independent_sets(const std::vector<PlacePair>& elements,
                                                const std::vector<bool>& moves);
 

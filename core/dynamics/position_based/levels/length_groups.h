@@ -44,9 +44,7 @@ class LengthGroups {
   LengthGroups(const std::vector<PlaceLength>& lengths, const std::vector<double>& inverse_masses,
                LengthSide side);
 
-  /// Projects each constraint once, unless the smoother is none.
-  ///
-  /// growth  what all lengths are multiplied by
+  /// Projects each constraint once, unless the smoother is none; all lengths times `growth`.
   void sweep(const Real* begins, Real* moves, const Relaxation& relaxation, Real growth = 1);
 
   /// Makes each length what its places are apart now, less a strain. In arrays of strains a length

@@ -12,9 +12,8 @@ namespace pleat {
 ///
 /// A share of each correction counts: the one that leaves least strain at once, but no less than a
 /// least share, which doubles from cycle to cycle until strains stall. An interpolated correction
-/// has errors of its own, which the next sweep takes away, so that the best share at once is too
-/// small. Where strains stall, springs contradict each other and no move can mend that: the least
-/// share is halved, lest corrections add up.
+/// has errors that the next sweep takes away, so that the best share at once is too small. Where
+/// strains stall, springs contradict each other: the least share is halved.
 class StrainCorrection {
  public:
   StrainCorrection() = default;
@@ -27,10 +26,8 @@ class StrainCorrection {
 
   /// Begins a solve.
   void begin();
-  /// Corrects the moves once; arrays as of GatheredSprings. Allocates once.
-  ///
-  /// n_numbers  in the array of moves
-  /// strains    of the springs there
+  /// Corrects the moves, so many numbers, by the springs' strains there; arrays as of
+  /// GatheredSprings. Allocates once.
   void correct(const GatheredSprings& springs, const float* begins, float* moves,
                std::size_t n_numbers, const float* strains, const CycleSmoothing& smoothing);
 

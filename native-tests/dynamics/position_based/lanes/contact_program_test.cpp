@@ -86,7 +86,7 @@ TEST_CASE("contact in lanes: limbs make of ways what they make of them one by on
   ContactOptions options{0.001, Eigen::VectorXd::Constant(kVertices, 0.01)};
   if (is_graded)
     for (double& radius : options.face_radii) radius = random.uniform(0.002, 0.02);
-  ContactStage stage(hips_and_thighs(friction), options);
+  ContactPass pass(hips_and_thighs(friction), options);
   const Vec3 origin(0.1, -0.2, 0.05);
   Lanes lanes;
   ContactProgram program(lanes.layout);
@@ -96,14 +96,14 @@ TEST_CASE("contact in lanes: limbs make of ways what they make of them one by on
     particle.position = random.uniform(-0.45, 0.25) * kUp + 0.25 * aside.normalized();
     particle.velocity = {0, 0, 1.5};
   }
-  program.begin_step(stage, lanes.layout);
+  program.begin_step(pass, lanes.layout);
   int n_hits = 0;
   int n_left = 0;
   int n_grazing = 0;
   for (int step = 0; step < 200; ++step) {
-    stage.begin_substep(step * kSubstep, (step + 1) * kSubstep);
+    pass.begin_substep(step * kSubstep, (step + 1) * kSubstep);
     for (std::size_t i = 0; i < kVertices; ++i) lanes.place(i, particles[i], origin);
-    program.place_solids(stage, origin, 0.5);
+    program.place_solids(pass, origin, 0.5);
     const std::vector<int> left = program.resolve(lanes.view(), lanes.lows());
     n_left += static_cast<int>(left.size());
     for (std::size_t i = 0; i < kVertices; ++i) {
@@ -111,7 +111,7 @@ TEST_CASE("contact in lanes: limbs make of ways what they make of them one by on
       const Vec3 begin = particle.position;
       particle.position += kSubstep * particle.velocity;
       const bool hits =
-          stage.resolve(VertexId(static_cast<int>(i)), begin, particle.position, particle.velocity)
+          pass.resolve(VertexId(static_cast<int>(i)), begin, particle.position, particle.velocity)
               .has_value();
       if (std::find(left.begin(), left.end(), static_cast<int>(i)) == left.end()) {
         n_hits += hits ? 1 : 0;

@@ -1,4 +1,4 @@
-#include "core/contact/contact_stage.h"
+#include "core/contact/contact_pass.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -14,34 +14,34 @@ namespace pleat {
 namespace {}  // namespace
 
 TEST_CASE("contact: a vertex that meets nothing is left to the bit", "[contact]") {
-  ContactStage stage({floor_collider(0.3), ball_collider({0, 5, 0}, 1, 0.3)}, {});
-  stage.begin_substep(0, 1);
+  ContactPass pass({floor_collider(0.3), ball_collider({0, 5, 0}, 1, 0.3)}, {});
+  pass.begin_substep(0, 1);
   const Vec3 begin{0.1, 1, 0.2};
   Vec3 position{0.7, 0.3, -0.4};
   Vec3 velocity = position - begin;
-  CHECK_FALSE(resolve(stage, VertexId(0), begin, position, velocity));
+  CHECK_FALSE(resolve(pass, VertexId(0), begin, position, velocity));
   CHECK(position == Vec3(0.7, 0.3, -0.4));
   CHECK(velocity == Vec3(0.7, 0.3, -0.4) - begin);
 }
 
 TEST_CASE("contact: without friction an impact keeps the tangential motion", "[contact]") {
-  ContactStage stage({floor_collider(0)}, {0.01, {}});
-  stage.begin_substep(0, 0.1);
+  ContactPass pass({floor_collider(0)}, {0.01, {}});
+  pass.begin_substep(0, 0.1);
   const Vec3 begin{0, 0.11, 0};
   Vec3 velocity{3, -4, 1};
   Vec3 position = begin + 0.1 * velocity;
-  CHECK(resolve(stage, VertexId(0), begin, position, velocity));
+  CHECK(resolve(pass, VertexId(0), begin, position, velocity));
   CHECK((position - Vec3(0.3, 0.01, 0.1)).norm() < 1e-15);
   CHECK((velocity - Vec3(3, 0, 1)).norm() < 1e-15);
 }
 
 TEST_CASE("contact: a vertex dropped on a floor comes to rest at once and stays", "[contact]") {
-  ContactStage stage({floor_collider(0.3)}, {0.001, {}});
+  ContactPass pass({floor_collider(0.3)}, {0.001, {}});
   Particle particle{{0.2, 0.5, 0.3}, {0.4, 0, 0}};
   const double h = 1.0 / 60;
   Vec3 settled = Vec3::Zero();
   for (int k = 0; k < 660; ++k) {
-    step(stage, -kGravity * kUp, k * h, h, particle);
+    step(pass, -kGravity * kUp, k * h, h, particle);
     if (k == 60) settled = particle.position;
     if (k >= 60) REQUIRE((particle.velocity == Vec3(0, 0, 0) && particle.position == settled));
   }
@@ -53,8 +53,8 @@ TEST_CASE("contact: neither a far solid nor their order changes a bit", "[contac
   const Collider ball = ball_collider({0, 0.3, 0}, 0.3, 0.2);
   const Collider ground = floor_collider(0.4);
   const Collider far = ball_collider({100, 0, 0}, 1, 0);
-  ContactStage one({ball, ground}, {});
-  ContactStage other({far, ground, ball}, {});
+  ContactPass one({ball, ground}, {});
+  ContactPass other({far, ground, ball}, {});
   one.begin_substep(0, 0.1);
   other.begin_substep(0, 0.1);
   for (int trial = 0; trial < 200; ++trial) {
@@ -73,17 +73,17 @@ TEST_CASE("contact: neither a far solid nor their order changes a bit", "[contac
 TEST_CASE("contact: a mirrored vertex has the mirrored answer, to the bit", "[contact]") {
   Random random(15);
   const Vec3 mirror(-1, 1, 1);
-  ContactStage stage({floor_collider(0.4), ball_collider({0, 0.3, 0.1}, 0.3, 0.2)},
-                     {0.001, Eigen::VectorXd::Constant(1, 0.01)});
-  stage.begin_substep(0, 0.1);
+  ContactPass pass({floor_collider(0.4), ball_collider({0, 0.3, 0.1}, 0.3, 0.2)},
+                   {0.001, Eigen::VectorXd::Constant(1, 0.01)});
+  pass.begin_substep(0, 0.1);
   for (int trial = 0; trial < 200; ++trial) {
     const Vec3 begin{random.uniform(-1, 1), random.uniform(0.7, 1), random.uniform(-1, 1)};
     Vec3 velocity = 15 * random_direction(random) - Vec3(0, 10, 0);
     Vec3 position = begin + 0.1 * velocity;
     Vec3 mirrored_position = position.cwiseProduct(mirror);
     Vec3 mirrored_velocity = velocity.cwiseProduct(mirror);
-    resolve(stage, VertexId(0), begin, position, velocity);
-    resolve(stage, VertexId(0), begin.cwiseProduct(mirror), mirrored_position, mirrored_velocity);
+    resolve(pass, VertexId(0), begin, position, velocity);
+    resolve(pass, VertexId(0), begin.cwiseProduct(mirror), mirrored_position, mirrored_velocity);
     CHECK(mirrored_position == position.cwiseProduct(mirror));
     CHECK(mirrored_velocity == velocity.cwiseProduct(mirror));
   }
@@ -93,9 +93,9 @@ TEST_CASE("contact: only the motion relative to the solid counts", "[contact]") 
   Random random(16);
   const Vec3 drift(7, -3, 2);  // [m/s]
   Collider ball = ball_collider({0, 0, 0}, 0.5, 0.3);
-  ContactStage at_rest({ball}, {});
+  ContactPass at_rest({ball}, {});
   ball.motion = steady_motion(drift);
-  ContactStage moving({ball}, {});
+  ContactPass moving({ball}, {});
   at_rest.begin_substep(0, 0.1);
   moving.begin_substep(0, 0.1);
   for (int trial = 0; trial < 100; ++trial) {
@@ -114,8 +114,8 @@ TEST_CASE("contact: only the motion relative to the solid counts", "[contact]") 
 TEST_CASE("contact: a vertex that is not finite is left for the stepper to report", "[contact]") {
   const double bad =
       GENERATE(std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity());
-  ContactStage stage({floor_collider(0.3), ball_collider({0, 0, 0}, 1, 0.3)}, {});
-  stage.begin_substep(0, 0.1);
+  ContactPass pass({floor_collider(0.3), ball_collider({0, 0, 0}, 1, 0.3)}, {});
+  pass.begin_substep(0, 0.1);
   const int broken = GENERATE(0, 1, 2);
   CAPTURE(bad, broken);
   Vec3 begin{0, 2, 0};
@@ -123,14 +123,14 @@ TEST_CASE("contact: a vertex that is not finite is left for the stepper to repor
   Vec3 velocity{0, -25, 0};
   (broken == 0 ? begin : broken == 1 ? position : velocity).y() = bad;
   const Vec3 position_before = position;
-  CHECK_FALSE(resolve(stage, VertexId(0), begin, position, velocity));
+  CHECK_FALSE(resolve(pass, VertexId(0), begin, position, velocity));
   CHECK(position.x() == 0);
   CHECK((position.y() == position_before.y() || std::isnan(bad)));
 }
 
 TEST_CASE("contact: colliders and sizes that make no sense are our bug", "[contact]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto make = [](const Collider& collider) { return ContactStage({collider}, {}); };
+  const auto make = [](const Collider& collider) { return ContactPass({collider}, {}); };
   CHECK_THROWS_AS(make(ball_collider({0, 0, 0}, 0, 0.3)), ContractError);
   CHECK_THROWS_AS(make(ball_collider({0, 0, 0}, nan, 0.3)), ContractError);
   CHECK_THROWS_AS(make(ball_collider({0, nan, 0}, 1, 0.3)), ContractError);
@@ -139,21 +139,21 @@ TEST_CASE("contact: colliders and sizes that make no sense are our bug", "[conta
   Collider slanted = floor_collider(0);
   slanted.shape = Plane{Vec3::Zero(), {0, 1.01, 0}};
   CHECK_THROWS_AS(make(slanted), ContractError);
-  CHECK_THROWS_AS(ContactStage({}, {-1, {}}), ContractError);
-  CHECK_THROWS_AS(ContactStage({}, {0, Eigen::VectorXd::Constant(1, nan)}), ContractError);
-  ContactStage stage({floor_collider(0)}, {});
-  CHECK_THROWS_AS(stage.begin_substep(1, 1), ContractError);
+  CHECK_THROWS_AS(ContactPass({}, {-1, {}}), ContractError);
+  CHECK_THROWS_AS(ContactPass({}, {0, Eigen::VectorXd::Constant(1, nan)}), ContractError);
+  ContactPass pass({floor_collider(0)}, {});
+  CHECK_THROWS_AS(pass.begin_substep(1, 1), ContractError);
 }
 
 TEST_CASE("contact: a substep allocates nothing", "[contact]") {
   if (!counts_allocations()) return;
-  ContactStage stage({floor_collider(0.3), ball_collider({0, 0.3, 0}, 0.3, 0.3)},
-                     {0.001, Eigen::VectorXd::Constant(1, 0.01)});
+  ContactPass pass({floor_collider(0.3), ball_collider({0, 0.3, 0}, 0.3, 0.3)},
+                   {0.001, Eigen::VectorXd::Constant(1, 0.01)});
   Particle particle{{0.5, 0.05, 0}, {-20, 0, 0}};
-  step(stage, Vec3(-100, -kGravity, 0), 0, 1 / 60.0, particle);
+  step(pass, Vec3(-100, -kGravity, 0), 0, 1 / 60.0, particle);
   CHECK(allocations_in([&] {
           for (int k = 1; k < 50; ++k)
-            step(stage, Vec3(-100, -kGravity, 0), k / 60.0, 1 / 60.0, particle);
+            step(pass, Vec3(-100, -kGravity, 0), k / 60.0, 1 / 60.0, particle);
         }) == 0);
 }
 
@@ -165,8 +165,8 @@ TEST_CASE("contact: a whole state gets what its vertices get one by one, to the 
   Collider ball = ball_collider({0, 0.3, 0.4}, 0.3, 0.2);
   ball.motion = steady_motion({0, 0.4, 0});
   const ContactOptions options{0.001, Eigen::VectorXd::LinSpaced(kVertices, 0, 0.02)};
-  ContactStage together({floor_collider(0.4), limb, ball}, options);
-  ContactStage one_by_one = together;
+  ContactPass together({floor_collider(0.4), limb, ball}, options);
+  ContactPass one_by_one = together;
   Positions begin(3, kVertices);
   for (int i = 0; i < kVertices; ++i)
     begin.col(i) = Vec3(0, 0.5, 0) + random.uniform(0, 1) * random_direction(random);
@@ -189,7 +189,7 @@ TEST_CASE("contact: a whole state gets what its vertices get one by one, to the 
       if (is_exempt[static_cast<std::size_t>(i)] != 0) continue;
       std::vector<char> others(kVertices, 1);
       others[static_cast<std::size_t>(i)] = 0;
-      for (const ContactStage::Touch& expected :
+      for (const ContactPass::Touch& expected :
            one_by_one.resolve(begin, others, expected_positions, expected_velocities)) {
         REQUIRE(touch != touches.end());
         CHECK((touch->vertex == i && touch->solid == expected.solid &&
@@ -213,11 +213,11 @@ TEST_CASE("contact: a whole state gets what its vertices get one by one, to the 
 }
 
 /// False where every outline says that the way does not meet its solid.
-bool may_meet(const std::vector<ContactStage::Outline>& outlines, const Vec3& begin,
+bool may_meet(const std::vector<ContactPass::Outline>& outlines, const Vec3& begin,
               const Vec3& end) {
   const Vec3 middle = (begin + end) / 2;
   const double length = (end - begin).norm();
-  return std::any_of(outlines.begin(), outlines.end(), [&](const ContactStage::Outline& outline) {
+  return std::any_of(outlines.begin(), outlines.end(), [&](const ContactPass::Outline& outline) {
     if (const auto* ball = std::get_if<SweptSphere>(&outline.shape))
       return (middle - ball->centre + ball->shift / 2).norm() <=
              ball->radius + length + ball->shift.norm() / 2;
@@ -235,20 +235,20 @@ TEST_CASE("contact: what is out of a solid's outline does not meet it", "[contac
   ball.motion = turning_motion({8, 0, 0}, {0, 0, -0.5});
   Collider floor = floor_collider(0.4);
   floor.motion = steady_motion({0, -1, 0});
-  ContactStage stage({floor, limb, ball}, {0.001, Eigen::VectorXd::Constant(1, 0.02)});
-  std::vector<ContactStage::Outline> outlines;
+  ContactPass pass({floor, limb, ball}, {0.001, Eigen::VectorXd::Constant(1, 0.02)});
+  std::vector<ContactPass::Outline> outlines;
   int n_ruled_out = 0;
   int n_touched = 0;
   for (int k = 0; k < 20; ++k) {
-    stage.begin_substep(k * kStep, (k + 1) * kStep);
-    stage.outlines(outlines);
+    pass.begin_substep(k * kStep, (k + 1) * kStep);
+    pass.outlines(outlines);
     REQUIRE(outlines.size() == 3);
     for (int i = 0; i < 2000; ++i) {
       const Vec3 begin = Vec3(0, 0.8, 0) + random.uniform(0, 1.5) * random_direction(random);
       Vec3 velocity = 20 * std::pow(random.uniform(0, 1), 4) * random_direction(random);
       Vec3 end = begin + kStep * velocity;
       const bool is_ruled_out = !may_meet(outlines, begin, end);
-      const bool is_touched = stage.resolve(VertexId(0), begin, end, velocity).has_value();
+      const bool is_touched = pass.resolve(VertexId(0), begin, end, velocity).has_value();
       CHECK_FALSE((is_ruled_out && is_touched));
       n_ruled_out += is_ruled_out ? 1 : 0;
       n_touched += is_touched ? 1 : 0;
@@ -259,26 +259,26 @@ TEST_CASE("contact: what is out of a solid's outline does not meet it", "[contac
 }
 
 TEST_CASE("contact: a state that is not whole is refused", "[contact]") {
-  ContactStage stage({floor_collider(0)}, {});
-  stage.begin_substep(0, 1);
+  ContactPass pass({floor_collider(0)}, {});
+  pass.begin_substep(0, 1);
   const Positions begin = Positions::Zero(3, 2);
   Positions positions = begin;
   Positions velocities = begin;
-  CHECK_THROWS_AS(stage.resolve(begin, std::vector<char>(1, 0), positions, velocities),
+  CHECK_THROWS_AS(pass.resolve(begin, std::vector<char>(1, 0), positions, velocities),
                   ContractError);
   velocities.resize(3, 1);
-  CHECK_THROWS_AS(stage.resolve(begin, std::vector<char>(2, 0), positions, velocities),
+  CHECK_THROWS_AS(pass.resolve(begin, std::vector<char>(2, 0), positions, velocities),
                   ContractError);
 }
 
 TEST_CASE("contact: a vertex on a solid is supported by it", "[contact]") {
-  const ContactStage stage({floor_collider(0.4), ball_collider({0, 0.3, 0}, 0.3, 0.2)},
-                           {0.001, Eigen::VectorXd::Constant(3, 0.01)});
+  const ContactPass pass({floor_collider(0.4), ball_collider({0, 0.3, 0}, 0.3, 0.2)},
+                         {0.001, Eigen::VectorXd::Constant(3, 0.01)});
   Positions positions(3, 3);
   positions.col(0) = Vec3(2, 0.001, 0);  // touches the floor
-  positions.col(1) = Vec3(0, 0.6 + stage.clearance(stage.colliders()[1], VertexId(1)).at_a, 0);
+  positions.col(1) = Vec3(0, 0.6 + pass.clearance(pass.colliders()[1], VertexId(1)).at_a, 0);
   positions.col(2) = Vec3(2, 0.001 + 2 * kTouchDistance, 0);  // is above it
-  const auto supports = stage.supports(positions, 0);
+  const auto supports = pass.supports(positions, 0);
   REQUIRE(supports.size() == 2);
   CHECK((supports[0].vertex == 0 && supports[0].normal == kUp && supports[0].friction == 0.4));
   CHECK((supports[1].vertex == 1 && supports[1].normal == kUp && supports[1].friction == 0.2));

@@ -4,43 +4,40 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/contact_stage.h"
+#include "core/contact/contact_pass.h"
 #include "core/model/cloth_model.h"
 #include "core/model/hanging_vertices.h"
 #include "core/model/state.h"
 
 namespace pleat {
 
-/// Keeps the edges of a cloth within the limits that its model has, for every stepper alike: it
-/// takes the state that a substep proposes and corrects it.
+/// Keeps the edges of a cloth within its model's limits, in the state that a substep proposes.
 ///
 /// An edge that would end longer than (1 + tau) L gets an impulse along itself, equal and opposite
 /// at its ends and shared by their inverse masses, after which it ends just below the limit. Edges
 /// of a line are solved for together, by one tridiagonal system; sweeps over all lines go on until
 /// no edge exceeds. An edge may give impulse back within a substep, never more than it got. Linear
-/// momentum is kept; angular momentum is lost in first order of the substep, as by backward Euler,
-/// because impulses act along the edge as it ends: along where it began they would make taut cloth
-/// flutter ever wider across its threads. Ends that hang hand impulses on to their parents.
+/// momentum is kept; angular momentum is lost in first order of the substep, as impulses act along
+/// the edge as it ends: along where it began they would make taut cloth flutter. Ends that hang
+/// hand impulses on to their parents.
 ///
 /// Source: the velocity constraint of Sun, Zhao & Liu, Computer Engineering and Applications
 /// 44(31), 2008; docs/methods/strain_limit.md.
-class StrainLimitStage {
+class StrainLimitPass {
  public:
-  /// model  with a strain limit; outlives the stage
-  explicit StrainLimitStage(const ClothModel& model);
+  /// model  with a strain limit; outlives the pass
+  explicit StrainLimitPass(const ClothModel& model);
 
-  /// Corrects what a stepper proposes for the end of a substep. Pinned vertices stay. Allocates
-  /// nothing.
-  ///
-  /// travel  how far a change of velocity by dv moves a vertex in the substep, over dv [s]
+  /// Corrects what a stepper proposes for the end of a substep, in which a change of velocity by dv
+  /// moves a vertex by travel dv [s]. Pinned vertices stay. Allocates nothing.
   void limit(State& state, double travel);
 
   /// Corrects once more in that substep, after contact touched vertices, which are then not pulled
   /// into solids.
-  void limit_again(State& state, double travel, std::span<const ContactStage::Touch> touches);
+  void limit_again(State& state, double travel, std::span<const ContactPass::Touch> touches);
 
   /// True where an edge that is not pinned at both ends is beyond its limits.
-  bool is_exceeded(const Eigen::Ref<const Positions>& positions) const;
+  bool is_exceeded(const PositionsView& positions) const;
 
   std::int64_t n_sweeps() const {
     return n_sweeps_;
@@ -53,7 +50,7 @@ class StrainLimitStage {
   struct Ends {
     VertexId a, b;
 
-    Vec3 difference(const Eigen::Ref<const Positions>& positions) const {
+    Vec3 difference(const PositionsView& positions) const {
       return positions.col(a) - positions.col(b);
     }
     template <class Visit>
@@ -66,7 +63,7 @@ class StrainLimitStage {
   struct SharedEnds {
     Combination sum;
 
-    Vec3 difference(const Eigen::Ref<const Positions>& positions) const;
+    Vec3 difference(const PositionsView& positions) const;
     template <class Visit>
     void for_each(Visit&& visit) const {
       for (std::size_t i = 0; i < sum.n_terms; ++i) visit(sum.terms[i].vertex, sum.terms[i].factor);
@@ -112,7 +109,7 @@ class StrainLimitStage {
   template <class EndsKind>
   bool exceeds(const Edge<EndsKind>& edge, double squared_length) const;
   template <class EndsKind>
-  bool is_beyond(const Edge<EndsKind>& edge, const Eigen::Ref<const Positions>& positions) const;
+  bool is_beyond(const Edge<EndsKind>& edge, const PositionsView& positions) const;
   template <class EndsKind>
   void pull(const EndsKind& ends, const Vec3& impulse, Positions& positions) const;
   template <class EndsKind>

@@ -40,22 +40,19 @@ struct Penetration {
   int n_inside = 0;  ///< vertices inside of any solid
 };
 
-/// Keeps the vertices of a cloth out of solids, for every stepper alike: it takes the state that a
-/// substep proposes and corrects it.
+/// Keeps the vertices of a cloth out of solids, in the state that a substep proposes.
 ///
 /// The path of a vertex relative to the moving solid is swept over the substep, so that nothing
 /// fast or thin is tunnelled. From the impact on, the vertex moves in the tangent plane: its normal
 /// velocity relative to the solid becomes zero (no bounce, unless the response is `uniform`), the
 /// tangential one loses at most `friction` times the normal change (Coulomb), and the rest of its
-/// tangential path shrinks by the same factor. A solid's velocity is the mean over the substep of
-/// its point that is met. A vertex that begins inside is put on the surface without gaining speed.
-/// Edges and faces are covered by a sample rule: vertices are held off a round solid far enough
-/// that a flat face with its corners there does not cut it (see clearance()). Source:
-/// docs/methods/contact.md (derivation and limits).
-class ContactStage {
+/// tangential path shrinks by the same factor. A vertex that begins inside is put on the surface
+/// without gaining speed. Vertices are held off a round solid far enough that a flat face with its
+/// corners there does not cut it (see clearance()). Source: docs/methods/contact.md.
+class ContactPass {
  public:
   /// Throws ContractError for a collider that is not valid, negative sizes.
-  ContactStage(std::vector<Collider> colliders, const ContactOptions& options);
+  ContactPass(std::vector<Collider> colliders, const ContactOptions& options);
 
   const ContactOptions& options() const { return options_; }
   /// Throws ContractError for negative sizes.
@@ -87,13 +84,12 @@ class ContactStage {
   /// positions        at time_end [m]; corrected
   /// velocities       at time_end [m/s]; corrected
   ///
-  /// Returns how vertices were touched, in the order of the vertices; valid until the next call.
-  /// Where nothing touched a vertex, it is left to the bit, as is one that is not finite. Allocates
-  /// nothing after the first call with as many vertices. Throws ContractError unless all have the
-  /// same number of vertices.
-  std::span<const Touch> resolve(const Eigen::Ref<const Positions>& positions_begin,
-                                 std::span<const char> is_exempt, Eigen::Ref<Positions> positions,
-                                 Eigen::Ref<Positions> velocities);
+  /// Returns how vertices were touched, in their order; valid until the next call. One that nothing
+  /// touched, or that is not finite, is left to the bit. Allocates nothing after the first call
+  /// with as many vertices.
+  std::span<const Touch> resolve(const PositionsView& positions_begin,
+                                 std::span<const char> is_exempt, PositionsRef positions,
+                                 PositionsRef velocities);
 
   /// Corrects one vertex alone, of which `resolve` of the whole state knows nothing; returns
   /// nothing where it is not touched.
@@ -130,8 +126,7 @@ class ContactStage {
 
   /// Least height above where solids hold them of the vertices that are not exempt, at the end of
   /// the substep [m]; negative below, infinite without solids.
-  double least_gap(const Eigen::Ref<const Positions>& positions,
-                   std::span<const char> is_exempt) const;
+  double least_gap(const PositionsView& positions, std::span<const char> is_exempt) const;
 
   /// Mean velocity over the substep of the touched solid's point that is at a place [m] when it
   /// begins [m/s].
@@ -146,7 +141,7 @@ class ContactStage {
   std::int64_t n_unresolved() const { return n_unresolved_; }
 
   /// Depth of the vertices inside of the solids as these are at a time [s], clearance not counted.
-  Penetration penetration(const Eigen::Ref<const Positions>& positions, double time) const;
+  Penetration penetration(const PositionsView& positions, double time) const;
 
   /// A vertex on a solid that may push it and rub at it.
   struct Support {
@@ -157,7 +152,7 @@ class ContactStage {
 
   /// The vertices that are at a time [s] no further from a solid than it holds them, and
   /// kTouchDistance; once for each solid. It knows positions alone, and nothing of substeps.
-  std::vector<Support> supports(const Eigen::Ref<const Positions>& positions, double time) const;
+  std::vector<Support> supports(const PositionsView& positions, double time) const;
 
   /// Size of its solids and of the radii of faces, without what it keeps of touches.
   std::size_t bytes() const;
@@ -165,7 +160,9 @@ class ContactStage {
   /// Rounded cones come last.
   const std::vector<Collider>& colliders() const { return colliders_; }
   /// The solid's shape at a time [s].
-  static SolidShape placed(const Collider& collider, double time);
+  static SolidShape placed(const Collider& collider, double time) {
+    return pleat::placed(collider.shape, collider.motion.pose(time));
+  }
 
  private:
   /// A collider over the substep that was begun.

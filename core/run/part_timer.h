@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/base/stage_observer.h"
+#include "core/base/part_observer.h"
 
 namespace pleat {
 
@@ -18,14 +18,14 @@ class Stopwatch {
 };
 
 /// Adds up the time spent in each part of a step. A part inside another counts for itself alone.
-class StageTimer : public StageObserver {
+class PartTimer : public PartObserver {
  public:
-  void begin(Stage stage) override;
-  void end(Stage stage) override;
+  void begin(Part part) override;
+  void end(Part part) override;
 
-  double total(Stage stage) const { return totals_[static_cast<std::size_t>(stage)]; }  ///< [s]
+  double total(Part part) const { return totals_[static_cast<std::size_t>(part)]; }  ///< [s]
   /// Each part's share of one of `n` equal stretches of the whole, such as frames [ms].
-  std::array<double, kStageCount> mean_ms(double n) const;
+  std::array<double, kPartCount> mean_ms(double n) const;
   void clear() { totals_.fill(0); }
 
  private:
@@ -35,8 +35,8 @@ class StageTimer : public StageObserver {
 
   Stopwatch watch_;
   double last_ = 0;  // when the running part began or was resumed [s]
-  std::array<double, kStageCount> totals_{};
-  std::array<Stage, kMaxDepth> running_{};
+  std::array<double, kPartCount> totals_{};
+  std::array<Part, kMaxDepth> running_{};
   std::size_t depth_ = 0;
 };
 

@@ -1,8 +1,7 @@
-#include "core/dynamics/strain_limit_stage.h"
+#include "core/dynamics/strain_limit_pass.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "core/base/check.h"
 
@@ -17,14 +16,14 @@ constexpr int kMaxSolves = 50;
 
 }  // namespace
 
-Vec3 StrainLimitStage::SharedEnds::difference(const Eigen::Ref<const Positions>& positions) const {
+Vec3 StrainLimitPass::SharedEnds::difference(const PositionsView& positions) const {
   Vec3 d(0, 0, 0);
   for (std::size_t i = 0; i < sum.n_terms; ++i)
     d += sum.terms[i].factor * positions.col(sum.terms[i].vertex);
   return d;
 }
 
-StrainLimitStage::StrainLimitStage(const ClothModel& model)
+StrainLimitPass::StrainLimitPass(const ClothModel& model)
     : model_(model),
       options_(model.strain_limit->options),
       limits_{1 - options_.compression, 1 + options_.stretch},
@@ -53,35 +52,34 @@ StrainLimitStage::StrainLimitStage(const ClothModel& model)
   if (model.contact) normals_ = Positions::Zero(3, model.n_vertices());
 }
 
-void StrainLimitStage::set_inverse_masses() {
+void StrainLimitPass::set_inverse_masses() {
   for (Eigen::Index i = 0; i < inverse_masses_.size(); ++i)
     inverse_masses_[i] = model_.masses[i] > 0 ? 1 / model_.masses[i] : 0;
   for (const Pin& pin : model_.pins) inverse_masses_[pin.vertex] = 0;
 }
 
 template <class EndsKind>
-bool StrainLimitStage::exceeds(const Edge<EndsKind>& edge, double squared_length) const {
+bool StrainLimitPass::exceeds(const Edge<EndsKind>& edge, double squared_length) const {
   const double longest = limits_.longest * edge.rest_length;
   const double shortest = limits_.shortest * edge.rest_length;
   return squared_length > longest * longest || squared_length < shortest * shortest;
 }
 
 template <class EndsKind>
-bool StrainLimitStage::is_beyond(const Edge<EndsKind>& edge,
-                                 const Eigen::Ref<const Positions>& positions) const {
+bool StrainLimitPass::is_beyond(const Edge<EndsKind>& edge, const PositionsView& positions) const {
   return exceeds(edge, edge.ends.difference(positions).squaredNorm()) &&
          inverse_mass(edge.ends) > 0;
 }
 
 template <class EndsKind>
-double StrainLimitStage::inverse_mass(const EndsKind& ends) const {
+double StrainLimitPass::inverse_mass(const EndsKind& ends) const {
   double sum = 0;
   ends.for_each([&](VertexId v, double factor) { sum += factor * factor * inverse_masses_[v]; });
   return sum;
 }
 
 template <class EndsKind>
-void StrainLimitStage::pull(const EndsKind& ends, const Vec3& impulse, Positions& positions) const {
+void StrainLimitPass::pull(const EndsKind& ends, const Vec3& impulse, Positions& positions) const {
   ends.for_each([&](VertexId v, double factor) {
     Vec3 move = -factor * inverse_masses_[v] * impulse;
     if (is_touched_) {
@@ -93,8 +91,8 @@ void StrainLimitStage::pull(const EndsKind& ends, const Vec3& impulse, Positions
 }
 
 template <class EndsKind>
-StrainLimitStage::Demand StrainLimitStage::demand_of(const Edge<EndsKind>& edge,
-                                                     const Positions& positions) const {
+StrainLimitPass::Demand StrainLimitPass::demand_of(const Edge<EndsKind>& edge,
+                                                   const Positions& positions) const {
   Demand demand;
   const Vec3 end = edge.ends.difference(positions);
   demand.length = end.norm();
@@ -111,14 +109,14 @@ StrainLimitStage::Demand StrainLimitStage::demand_of(const Edge<EndsKind>& edge,
 }
 
 template <class EndsKind>
-double StrainLimitStage::impulse_after(const Edge<EndsKind>& edge, const Demand& demand) {
+double StrainLimitPass::impulse_after(const Edge<EndsKind>& edge, const Demand& demand) {
   const double after = edge.impulse + demand.impulse;
   return (demand.pulls ? after >= 0 : after <= 0) ? after : 0;
 }
 
 template <class EndsKind>
-void StrainLimitStage::apply(Edge<EndsKind>& edge, const Demand& demand,
-                             Positions& positions) const {
+void StrainLimitPass::apply(Edge<EndsKind>& edge, const Demand& demand,
+                            Positions& positions) const {
   const double after = impulse_after(edge, demand);
   const double impulse = after - edge.impulse;
   if (options_.law == StrainLimitLaw::velocity) edge.impulse = after;
@@ -127,7 +125,7 @@ void StrainLimitStage::apply(Edge<EndsKind>& edge, const Demand& demand,
 
 /// These return true when an edge exceeded before it was corrected.
 template <class EndsKind>
-bool StrainLimitStage::correct(Edge<EndsKind>& edge, Positions& positions) {
+bool StrainLimitPass::correct(Edge<EndsKind>& edge, Positions& positions) {
   Demand demand = demand_of(edge, positions);
   if (!demand.is_active) return false;
   demand.impulse = demand.shortening / demand.inverse_mass;
@@ -135,7 +133,7 @@ bool StrainLimitStage::correct(Edge<EndsKind>& edge, Positions& positions) {
   return exceeds(edge, demand.length * demand.length);
 }
 
-void StrainLimitStage::demand(const Line& line, const Positions& positions) {
+void StrainLimitPass::demand(const Line& line, const Positions& positions) {
   const std::size_t n_edges = line.end - line.begin;
   for (std::size_t k = 0; k < n_edges; ++k) {
     const Edge<Ends>& edge = edges_[line.begin + k];
@@ -148,7 +146,7 @@ void StrainLimitStage::demand(const Line& line, const Positions& positions) {
 
 /// Gives up the edges between pins that are farther apart than the limit allows: impulses would
 /// only add up.
-void StrainLimitStage::leave_overstretched(const Line& line, const Positions& positions) {
+void StrainLimitPass::leave_overstretched(const Line& line, const Positions& positions) {
   std::size_t first = line.begin;  // edge after the last pinned vertex
   VertexId pinned;
   double length = 0;  // length of the line since then, at its limits
@@ -170,7 +168,7 @@ void StrainLimitStage::leave_overstretched(const Line& line, const Positions& po
 
 /// The factor on the diagonal of a line's system. A line between two pins has a system that is
 /// singular or nearly so: its diagonal grows by about its smallest other eigenvalue.
-double StrainLimitStage::diagonal_factor(const Line& line) const {
+double StrainLimitPass::diagonal_factor(const Line& line) const {
   int n_pinned = inverse_masses_[edges_[line.begin].ends.a] == 0 ? 1 : 0;
   for (std::size_t e = line.begin; e < line.end; ++e)
     if (inverse_masses_[edges_[e].ends.b] == 0) ++n_pinned;
@@ -181,7 +179,7 @@ double StrainLimitStage::diagonal_factor(const Line& line) const {
 // An impulse p_k shortens edge k by (w_a + w_b) p_k and lengthens its neighbour, with which it
 // shares a vertex of inverse mass w, by w cos(angle) p_k: a tridiagonal system, in which inactive
 // edges have no impulse and spent ones give back what they had.
-void StrainLimitStage::eliminate(const Line& line, double diagonal_factor) {
+void StrainLimitPass::eliminate(const Line& line, double diagonal_factor) {
   const std::size_t n_edges = line.end - line.begin;
   for (std::size_t k = 0; k < n_edges; ++k) {
     Demand& demand = demands_[k];
@@ -206,7 +204,7 @@ void StrainLimitStage::eliminate(const Line& line, double diagonal_factor) {
 
 /// Spends edges that would push where they pull, and activates those that the others lengthen
 /// beyond their limits. Returns whether any changed.
-bool StrainLimitStage::change_active(const Line& line) {
+bool StrainLimitPass::change_active(const Line& line) {
   const std::size_t n_edges = line.end - line.begin;
   bool has_changed = false;
   for (std::size_t k = 0; k < n_edges; ++k) {
@@ -230,7 +228,7 @@ bool StrainLimitStage::change_active(const Line& line) {
   return has_changed;
 }
 
-bool StrainLimitStage::pushes(const Line& line) const {
+bool StrainLimitPass::pushes(const Line& line) const {
   for (std::size_t e = line.begin; e < line.end; ++e)
     if (impulse_after(edges_[e], demands_[e - line.begin]) < 0) return true;
   return false;
@@ -239,7 +237,7 @@ bool StrainLimitStage::pushes(const Line& line) const {
 // With c = p/l, l the length at the goal and d the edges as they end, the places x obey
 //   x_i + w_i sum of +-c d = what is proposed for x_i,
 // a tridiagonal system. The impulses of later sweeps are little beside those of the first.
-void StrainLimitStage::place_ends(const Line& line, Positions& positions) {
+void StrainLimitPass::place_ends(const Line& line, Positions& positions) {
   const std::size_t n_edges = line.end - line.begin;
   const auto vertex = [&](std::size_t i) {
     return i < n_edges ? edges_[line.begin + i].ends.a : edges_[line.end - 1].ends.b;
@@ -270,7 +268,7 @@ void StrainLimitStage::place_ends(const Line& line, Positions& positions) {
   for (std::size_t i = 0; i <= n_edges; ++i) positions.col(vertex(i)) = line_ends_[i].place;
 }
 
-bool StrainLimitStage::correct(const Line& line, Positions& positions) {
+bool StrainLimitPass::correct(const Line& line, Positions& positions) {
   const auto is_out = [&](const Edge<Ends>& edge) { return is_beyond(edge, positions); };
   const auto begin = edges_.begin() + static_cast<std::ptrdiff_t>(line.begin);
   const auto end = edges_.begin() + static_cast<std::ptrdiff_t>(line.end);
@@ -297,7 +295,7 @@ bool StrainLimitStage::correct(const Line& line, Positions& positions) {
   return has_exceeded;
 }
 
-bool StrainLimitStage::sweep(Positions& positions) {
+bool StrainLimitPass::sweep(Positions& positions) {
   bool has_exceeded = false;
   if (options_.law == StrainLimitLaw::velocity)
     for (const Line& line : lines_) has_exceeded = correct(line, positions) || has_exceeded;
@@ -309,7 +307,7 @@ bool StrainLimitStage::sweep(Positions& positions) {
   return has_exceeded;
 }
 
-void StrainLimitStage::sweep_until_within(State& state, double travel) {
+void StrainLimitPass::sweep_until_within(State& state, double travel) {
   int sweeps = 0;
   bool has_exceeded = true;
   for (; has_exceeded && sweeps < options_.max_sweeps; ++sweeps)
@@ -328,7 +326,7 @@ void StrainLimitStage::sweep_until_within(State& state, double travel) {
 // Sweeps that ran out leave impulses on their way to limits which cannot all be kept: whole, they
 // may add energy. The share s of the changes dv that leaves least kinetic energy |v + s dv|^2
 // counts.
-double StrainLimitStage::share_of_least_energy(const Positions& velocities) const {
+double StrainLimitPass::share_of_least_energy(const Positions& velocities) const {
   double along = 0;
   double squared = 0;
   for (Eigen::Index i = 0; i < velocities.cols(); ++i) {
@@ -338,7 +336,7 @@ double StrainLimitStage::share_of_least_energy(const Positions& velocities) cons
   return squared > 0 ? std::clamp(-along / squared, 0.0, 1.0) : 0;
 }
 
-void StrainLimitStage::limit(State& state, double travel) {
+void StrainLimitPass::limit(State& state, double travel) {
   set_inverse_masses();
   const auto restart = [](auto& edges) {
     for (auto& edge : edges) {
@@ -353,29 +351,29 @@ void StrainLimitStage::limit(State& state, double travel) {
   sweep_until_within(state, travel);
 }
 
-void StrainLimitStage::limit_again(State& state, double travel,
-                                   std::span<const ContactStage::Touch> touches) {
+void StrainLimitPass::limit_again(State& state, double travel,
+                                  std::span<const ContactPass::Touch> touches) {
   proposed_ = state.positions;
-  for (const ContactStage::Touch& touch : touches) normals_.col(touch.vertex) = touch.normal;
+  for (const ContactPass::Touch& touch : touches) normals_.col(touch.vertex) = touch.normal;
   is_touched_ = true;
   sweep_until_within(state, travel);
   is_touched_ = false;
-  for (const ContactStage::Touch& touch : touches) normals_.col(touch.vertex).setZero();
+  for (const ContactPass::Touch& touch : touches) normals_.col(touch.vertex).setZero();
 }
 
-double StrainLimitStage::largest_excess(const Positions& positions) const {
+double StrainLimitPass::largest_excess(const Positions& positions) const {
   double largest = 0;
-  const auto look_at = [&](const auto& edge) {
+  const auto include = [&](const auto& edge) {
     if (inverse_mass(edge.ends) == 0) return;
     const double share = edge.ends.difference(positions).norm() / edge.rest_length;
     largest = std::max({largest, share - limits_.longest, limits_.shortest - share});
   };
-  std::for_each(edges_.begin(), edges_.end(), look_at);
-  std::for_each(shared_edges_.begin(), shared_edges_.end(), look_at);
+  std::for_each(edges_.begin(), edges_.end(), include);
+  std::for_each(shared_edges_.begin(), shared_edges_.end(), include);
   return largest;
 }
 
-bool StrainLimitStage::is_exceeded(const Eigen::Ref<const Positions>& positions) const {
+bool StrainLimitPass::is_exceeded(const PositionsView& positions) const {
   const auto is_out = [&](const auto& edge) { return is_beyond(edge, positions); };
   return std::any_of(edges_.begin(), edges_.end(), is_out) ||
          std::any_of(shared_edges_.begin(), shared_edges_.end(), is_out);

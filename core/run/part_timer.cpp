@@ -1,4 +1,4 @@
-#include "core/run/stage_timer.h"
+#include "core/run/part_timer.h"
 
 #include <chrono>
 
@@ -17,26 +17,26 @@ Stopwatch::Stopwatch() : begin_(seconds()) {}
 
 double Stopwatch::elapsed() const { return seconds() - begin_; }
 
-void StageTimer::charge_running() {
+void PartTimer::charge_running() {
   const double now = watch_.elapsed();
   if (depth_ > 0) totals_[static_cast<std::size_t>(running_[depth_ - 1])] += now - last_;
   last_ = now;
 }
 
-std::array<double, kStageCount> StageTimer::mean_ms(double n) const {
-  std::array<double, kStageCount> means = totals_;
+std::array<double, kPartCount> PartTimer::mean_ms(double n) const {
+  std::array<double, kPartCount> means = totals_;
   for (double& mean : means) mean *= 1e3 / n;
   return means;
 }
 
-void StageTimer::begin(Stage stage) {
+void PartTimer::begin(Part part) {
   PLEAT_CHECK(depth_ < kMaxDepth, "parts of a step are nested at most four deep");
   charge_running();
-  running_[depth_++] = stage;
+  running_[depth_++] = part;
 }
 
-void StageTimer::end(Stage stage) {
-  PLEAT_CHECK(depth_ > 0 && running_[depth_ - 1] == stage,
+void PartTimer::end(Part part) {
+  PLEAT_CHECK(depth_ > 0 && running_[depth_ - 1] == part,
               "the part that ends is the last that began");
   charge_running();
   --depth_;

@@ -1,4 +1,4 @@
-#include "core/contact/contact_stage.h"
+#include "core/contact/contact_pass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +70,7 @@ Vec3 tangential(const Vec3& vector, const Vec3& normal) {
 
 }  // namespace
 
-ContactStage::ContactStage(std::vector<Collider> colliders, const ContactOptions& options)
+ContactPass::ContactPass(std::vector<Collider> colliders, const ContactOptions& options)
     : colliders_(std::move(colliders)) {
   for (const Collider& collider : colliders_) collider.validate();
   const auto first_framed = std::stable_partition(colliders_.begin(), colliders_.end(), is_plain);
@@ -83,7 +83,7 @@ ContactStage::ContactStage(std::vector<Collider> colliders, const ContactOptions
   set_options(options);
 }
 
-void ContactStage::set_options(const ContactOptions& options) {
+void ContactPass::set_options(const ContactOptions& options) {
   const auto is_size = [](double size) { return size >= 0 && std::isfinite(size); };
   const Eigen::VectorXd& radii = options.face_radii;
   PLEAT_CHECK(is_size(options.half_thickness), "the cloth's half thickness must not be negative");
@@ -95,20 +95,20 @@ void ContactStage::set_options(const ContactOptions& options) {
   make_budget();
 }
 
-Clearance ContactStage::clearance(const std::array<double, 2>& radii, double face_radius) const {
+Clearance ContactPass::clearance(const std::array<double, 2>& radii, double face_radius) const {
   return {options_.half_thickness + sagitta(radii[0], face_radius),
           options_.half_thickness + sagitta(radii[1], face_radius)};
 }
 
-Clearance ContactStage::clearance(const Collider& collider, VertexId vertex) const {
+Clearance ContactPass::clearance(const Collider& collider, VertexId vertex) const {
   return clearance(end_radii(collider.shape),
                    is_graded_ ? options_.face_radii[vertex] : largest_face_radius_);
 }
 
 /// The shape of a solid as this vertex is held off it.
 template <class Shape, class Action>
-auto ContactStage::with_held(const Solid& solid, const Shape& shape, VertexId vertex,
-                             const Action& action) const {
+auto ContactPass::with_held(const Solid& solid, const Shape& shape, VertexId vertex,
+                            const Action& action) const {
   if (!is_graded_) return action(shape);
   const double face_radius = options_.face_radii[vertex];
   const auto less = [&](double radius) {
@@ -120,12 +120,12 @@ auto ContactStage::with_held(const Solid& solid, const Shape& shape, VertexId ve
 }
 
 /// Gap of a place when the substep ends, from where the solid holds the vertex.
-Gap ContactStage::held_gap(const Solid& solid, VertexId vertex, const Vec3& place) const {
+Gap ContactPass::held_gap(const Solid& solid, VertexId vertex, const Vec3& place) const {
   return with_held(solid, solid.swept, vertex,
                    [&](const SweptSolid& held) { return gap(held, place); });
 }
 
-void ContactStage::make_budget() {
+void ContactPass::make_budget() {
   std::vector<DistanceBudget::Hull> hulls;
   for (std::size_t k = first_cone_; k < colliders_.size(); ++k) {
     const auto& cone = std::get<RoundedCone>(colliders_[k].shape);
@@ -134,8 +134,8 @@ void ContactStage::make_budget() {
   budget_ = DistanceBudget(std::move(hulls));
 }
 
-void ContactStage::place(const Collider& collider, const Pose& begin, const Pose& end,
-                         Solid& solid) const {
+void ContactPass::place(const Collider& collider, const Pose& begin, const Pose& end,
+                        Solid& solid) const {
   solid.turns = begin.rotation != end.rotation;
   solid.radii = end_radii(collider.shape);
   solid.friction = collider.friction;
@@ -151,7 +151,7 @@ void ContactStage::place(const Collider& collider, const Pose& begin, const Pose
                       clearance(solid.radii, largest_face_radius_), shift);
 }
 
-void ContactStage::begin_substep(double time_begin, double time_end) {
+void ContactPass::begin_substep(double time_begin, double time_end) {
   PLEAT_CHECK(time_end > time_begin, "a substep must end after it begins");
   substep_ = time_end - time_begin;
   for (std::size_t k = 0; k < colliders_.size(); ++k) {
@@ -164,24 +164,24 @@ void ContactStage::begin_substep(double time_begin, double time_end) {
                           std::span(poses_end_).subspan(first_cone_));
 }
 
-Vec3 ContactStage::velocity_at(const Solid& solid, const Vec3& place) const {
+Vec3 ContactPass::velocity_at(const Solid& solid, const Vec3& place) const {
   return solid.turns ? Vec3((place - solid.back * place) / substep_) : solid.velocity;
 }
 
 /// The vertex's path as the solid sees it [m].
-Vec3 ContactStage::relative_path(const Solid& solid, const Vec3& begin, const Vec3& end) {
+Vec3 ContactPass::relative_path(const Solid& solid, const Vec3& begin, const Vec3& end) {
   if (solid.turns) return end - solid.carry * begin;
   return end - begin - std::visit([](const auto& shape) { return shape.shift; }, solid.swept);
 }
 
-void ContactStage::Meeting::keep_earlier(const Solid& other, const std::optional<Impact>& met) {
+void ContactPass::Meeting::keep_earlier(const Solid& other, const std::optional<Impact>& met) {
   if (!met || (solid && met->fraction >= impact.fraction)) return;
   solid = &other;
   impact = *met;
 }
 
-void ContactStage::meet_framed(VertexId vertex, const Vec3& begin, const Vec3& end, double slack,
-                               const Solid* skipped, Meeting& earliest) {
+void ContactPass::meet_framed(VertexId vertex, const Vec3& begin, const Vec3& end, double slack,
+                              const Solid* skipped, Meeting& earliest) {
   for (std::size_t k = first_framed_; k < first_cone_; ++k) {
     const Solid& solid = solids_[k];
     if (&solid == skipped) continue;
@@ -193,7 +193,7 @@ void ContactStage::meet_framed(VertexId vertex, const Vec3& begin, const Vec3& e
     });
   }
   if (first_cone_ == solids_.size()) return;
-  budget_.look_at_near(vertex, begin, end, [&](std::size_t k) {
+  budget_.visit_near(vertex, begin, end, [&](std::size_t k) {
     const Solid& solid = solids_[first_cone_ + k];
     if (&solid == skipped) return -std::numeric_limits<double>::infinity();
     const Vec3 from = solid.turns ? solid.carry * begin : begin;
@@ -206,9 +206,9 @@ void ContactStage::meet_framed(VertexId vertex, const Vec3& begin, const Vec3& e
   });
 }
 
-ContactStage::Meeting ContactStage::earliest_meeting(VertexId vertex, const Vec3& begin,
-                                                     const Vec3& end, double slack,
-                                                     const Solid* skipped) {
+ContactPass::Meeting ContactPass::earliest_meeting(VertexId vertex, const Vec3& begin,
+                                                   const Vec3& end, double slack,
+                                                   const Solid* skipped) {
   Meeting earliest;
   for (std::size_t k = 0; k < first_framed_; ++k) {
     const Solid& solid = solids_[k];
@@ -225,7 +225,7 @@ ContactStage::Meeting ContactStage::earliest_meeting(VertexId vertex, const Vec3
 }
 
 /// True on and outside of the solid itself, without clearance.
-bool ContactStage::is_outside(const Solid& solid, const Vec3& place) const {
+bool ContactPass::is_outside(const Solid& solid, const Vec3& place) const {
   SweptSolid bare = solid.swept;
   shrink(bare, clearance(solid.radii, largest_face_radius_));
   return gap(bare, place).distance >= 0;
@@ -235,17 +235,14 @@ bool ContactStage::is_outside(const Solid& solid, const Vec3& place) const {
 // share s of the substep, u the velocity and d the path relative to it, and t marking the part
 // across n:
 //   u <- slip u_t + max(u_n, 0) n,   x <- point + (1 - s) slip d_t,
-// or, where it bounces, with |u_n| and the mirrored rest of d_n.
-// Friction thus acts on the path after the impact as it does on the velocity; a vertex that sticks
-// stays where it met the solid, to the bit. The new place lies on the tangent plane, never inside
-// of a convex solid. Should this lead into the solid that acted before, the vertex slides along the
-// new one, in the direction m = n_b - (n_b . n) n, until it is on the old one's tangent plane as
-// well; then it is clear of both. Where solids leave it no place with its clearance, the middle of
-// the last two places is as far inside of either's, and may yet be outside of the solids
-// themselves.
-std::optional<ContactStage::Touch> ContactStage::resolve(VertexId vertex,
-                                                         const Vec3& position_begin, Vec3& position,
-                                                         Vec3& velocity) {
+// or, where it bounces, with |u_n| and the mirrored rest of d_n. A vertex that sticks stays where
+// it met the solid, to the bit. The new place lies on the tangent plane, never inside of a convex
+// solid. Should this lead into the solid that acted before, the vertex slides along the new one, in
+// the direction m = n_b - (n_b . n) n, until it is on the old one's tangent plane as well; then it
+// is clear of both. Where solids leave it no place with its clearance, the middle of the last two
+// places is as far inside of either's, and may yet be outside of the solids themselves.
+std::optional<ContactPass::Touch> ContactPass::resolve(VertexId vertex, const Vec3& position_begin,
+                                                       Vec3& position, Vec3& velocity) {
   Meeting meeting = earliest_meeting(vertex, position_begin, position, 0, nullptr);
   if (!meeting.solid || !velocity.allFinite()) return std::nullopt;
   const bool bounces = options_.response == ContactResponse::uniform;
@@ -295,9 +292,10 @@ std::optional<ContactStage::Touch> ContactStage::resolve(VertexId vertex,
   return touch;
 }
 
-std::span<const ContactStage::Touch> ContactStage::resolve(
-    const Eigen::Ref<const Positions>& positions_begin, std::span<const char> is_exempt,
-    Eigen::Ref<Positions> positions, Eigen::Ref<Positions> velocities) {
+std::span<const ContactPass::Touch> ContactPass::resolve(const PositionsView& positions_begin,
+                                                         std::span<const char> is_exempt,
+                                                         PositionsRef positions,
+                                                         PositionsRef velocities) {
   const Eigen::Index n_vertices = positions.cols();
   PLEAT_CHECK(positions_begin.cols() == n_vertices && velocities.cols() == n_vertices &&
                   is_exempt.size() == static_cast<std::size_t>(n_vertices),
@@ -323,7 +321,7 @@ std::span<const ContactStage::Touch> ContactStage::resolve(
 // which is off by at most |R - I| |a - c_0| from the way between the solid's own places. With rho =
 // |R - I| at most 1/4 and q the latter's least length, q (1 - rho) - rho (|a - b| + |c_1 - c_0|) >
 // r keeps it out; a ball of r / (1 - rho) + |c_1 - c_0| and a distance of |a - b| ask for more.
-void ContactStage::outlines(std::vector<Outline>& outlines) const {
+void ContactPass::outlines(std::vector<Outline>& outlines) const {
   constexpr double kEverywhere = std::numeric_limits<double>::infinity();
   constexpr double kLargestTurn = 0.25;
   const bool rests = options_.response == ContactResponse::resting;
@@ -362,8 +360,8 @@ void ContactStage::outlines(std::vector<Outline>& outlines) const {
   }
 }
 
-double ContactStage::least_gap(const Eigen::Ref<const Positions>& positions,
-                               std::span<const char> is_exempt) const {
+double ContactPass::least_gap(const PositionsView& positions,
+                              std::span<const char> is_exempt) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Solid& solid : solids_) {
     for (Eigen::Index i = 0; i < positions.cols(); ++i) {
@@ -374,21 +372,17 @@ double ContactStage::least_gap(const Eigen::Ref<const Positions>& positions,
   return least;
 }
 
-Vec3 ContactStage::solid_velocity(const Touch& touch, const Vec3& place_begin) const {
+Vec3 ContactPass::solid_velocity(const Touch& touch, const Vec3& place_begin) const {
   const Solid& solid = solids_[static_cast<std::size_t>(touch.solid)];
   return solid.turns ? Vec3((solid.carry * place_begin - place_begin) / substep_) : solid.velocity;
 }
 
-Gap ContactStage::gap_at_end(const Touch& touch, const Vec3& place) const {
+Gap ContactPass::gap_at_end(const Touch& touch, const Vec3& place) const {
   return held_gap(solids_[static_cast<std::size_t>(touch.solid)], touch.vertex, place);
 }
 
-SolidShape ContactStage::placed(const Collider& collider, double time) {
-  return pleat::placed(collider.shape, collider.motion.pose(time));
-}
-
-std::vector<ContactStage::Support> ContactStage::supports(
-    const Eigen::Ref<const Positions>& positions, double time) const {
+std::vector<ContactPass::Support> ContactPass::supports(const PositionsView& positions,
+                                                        double time) const {
   std::vector<Support> found;
   for (const Collider& collider : colliders_) {
     const SweptSolid bare = swept(placed(collider, time), Clearance{}, Vec3::Zero());
@@ -402,13 +396,12 @@ std::vector<ContactStage::Support> ContactStage::supports(
   return found;
 }
 
-std::size_t ContactStage::bytes() const {
+std::size_t ContactPass::bytes() const {
   return colliders_.size() * (sizeof(Collider) + sizeof(Solid) + 2 * sizeof(Pose)) +
          static_cast<std::size_t>(options_.face_radii.size()) * sizeof(double);
 }
 
-Penetration ContactStage::penetration(const Eigen::Ref<const Positions>& positions,
-                                      double time) const {
+Penetration ContactPass::penetration(const PositionsView& positions, double time) const {
   std::vector<SweptSolid> solids;
   for (const Collider& collider : colliders_)
     solids.push_back(swept(placed(collider, time), Clearance{}, Vec3::Zero()));
