@@ -1,6 +1,6 @@
 // The view of refinement: one garment on a walking body, on a coarse, a planned and a fine mesh. Its
 // store, its workers, its stage and its panels, wired together.
-import firstBody from 'virtual:pleat-figure';
+import firstBody from 'virtual:pleat-body';
 import type { View } from '../shared/page/view';
 import '../shared/page/panes.css';
 import './refinement.css';
