@@ -41,6 +41,8 @@ export function firstBody(): Plugin {
     name: 'pleat-body',
     resolveId: (id) => (id === NAME ? `\0${NAME}` : null),
     load: async (id) =>
-      id === `\0${NAME}` ? `export default ${JSON.stringify(await solidsAtStart(), rounded)}` : null,
+      id === `\0${NAME}`
+        ? `export default ${JSON.stringify(await solidsAtStart(), rounded)}`
+        : null,
   };
 }

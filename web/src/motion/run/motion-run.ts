@@ -7,6 +7,7 @@ import { affordable, createClock } from '../../shared/state/clock';
 import { Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
+import { type StartMotion, startMotionWorker } from '../../shared/workers/motion-client';
 import type {
   FrameMessage,
   FromMotion,
@@ -21,12 +22,7 @@ import { withSample } from '../state/energy-samples';
 import { type MotionState, shownHeat, wantsReference } from '../state/motion-state';
 import { presetSetting, type Setting } from '../state/setting';
 import { withCost } from '../state/step-cost';
-import {
-  type StartMotion,
-  type StartObj,
-  startMotionWorker,
-  startObjWorker,
-} from './motion-client';
+import { type StartObj, startObjWorker } from './obj-client';
 import { ObjSource } from './obj-source';
 import { ReferenceSource } from './reference-source';
 import { remedyFor, remedyForWarning } from './remedy';
