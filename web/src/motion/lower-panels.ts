@@ -19,10 +19,10 @@ function createSweepTray(
 ): () => void {
   const bring = later(store, 'The chart of the sweep', async () => {
     const { createSpeedErrorView } = await import('./panels/speed-error/speed-error-view');
-    return createSpeedErrorView(parent, store, run);
+    createSpeedErrorView(parent, store, run);
   });
   watch(store, ['sweepOpen'], async ({ sweepOpen }) => {
-    if (sweepOpen && !(await bring())) store.set({ sweepOpen: false });
+    if (sweepOpen && (await bring()) === null) store.set({ sweepOpen: false });
   });
   return async () => {
     store.set({ sweepOpen: true });

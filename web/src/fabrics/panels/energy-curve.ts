@@ -164,7 +164,7 @@ function tableRow(step: WeightedStep, index: number): HTMLElement {
 }
 
 /** The curve of the chosen pane. */
-export function createEnergyCurve(parent: HTMLElement, store: Store<DeformState>): () => void {
+export function createEnergyCurve(parent: HTMLElement, store: Store<DeformState>): void {
   const root = svg('svg', {
     viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
     class: 'plot energy-plot',
@@ -210,7 +210,7 @@ export function createEnergyCurve(parent: HTMLElement, store: Store<DeformState>
 
   let drawn: PaneState | undefined;
   let counted: Record<Term, boolean> | undefined;
-  return watch(store, ['panes', 'chosen', 'terms'], ({ panes, chosen, terms }) => {
+  watch(store, ['panes', 'chosen', 'terms'], ({ panes, chosen, terms }) => {
     const pane = panes[chosen];
     if (!pane || (pane === drawn && terms === counted)) return;
     drawn = pane;

@@ -33,7 +33,7 @@ export function createExperimentPanel(
     /** Gives up the file that is being read. */
     cancel(): void;
   },
-): () => void {
+): void {
   const options = [
     ...EXPERIMENTS.map(({ id, title }) => ({ value: id, title })),
     { value: OWN, title: 'Your OBJ' },
@@ -51,10 +51,10 @@ export function createExperimentPanel(
   const unit = createObjUnit((value) => actions.setUnit(value));
   const reading = createReading(() => actions.cancel());
   section.append(unit.box);
-  const closePicker = createObjPicker(section, actions);
+  createObjPicker(section, actions);
   section.append(reading.box);
   parent.append(section);
-  const stop = watch(store, ['experiment', 'cloth', 'objName', 'reading'], (state) => {
+  watch(store, ['experiment', 'cloth', 'objName', 'reading'], (state) => {
     chosen.select(state.experiment);
     chosen.limit((id) => (id === OWN && !state.objName ? 'choose a file below' : null));
     setText(caption, captionOf(state));
@@ -63,9 +63,4 @@ export function createExperimentPanel(
     unit.select(state.objUnit);
     reading.show(state.reading);
   });
-  return () => {
-    stop();
-    closePicker();
-    section.remove();
-  };
 }

@@ -164,7 +164,7 @@ export function createFabricCard(
   parent: HTMLElement,
   store: Store<DeformState>,
   { setWeightsFrom }: CardActions,
-): () => void {
+): void {
   const swatch = element('span', { class: 'fabric-swatch', 'aria-hidden': 'true' });
   const name = element('h2', {});
   const use = element('span', { class: 'note' });
@@ -222,7 +222,7 @@ export function createFabricCard(
   }
 
   let drawn = '';
-  return watch(store, ['panes', 'chosen', 'weightsFrom', 'ownFabric'], (state) => {
+  watch(store, ['panes', 'chosen', 'weightsFrom', 'ownFabric'], (state) => {
     const { panes, chosen, weightsFrom, ownFabric } = state;
     const fabric = panes[chosen]?.fabric;
     if (!fabric) return;

@@ -221,7 +221,7 @@ export function createFabricGallery(
   parent: HTMLElement,
   store: Store<DeformState>,
   actions: GalleryActions,
-): () => void {
+): void {
   const { press, toggle } = createChoices(store, actions, (sentence) => {
     setText(refusal, sentence);
     if (sentence !== '') render();
@@ -279,7 +279,7 @@ export function createFabricGallery(
 
   // Numbers of a pane change with every frame of a drag, this list does not.
   let drawn = '';
-  return watch(store, ['panes', 'chosen', 'gallery', 'weightsFrom', 'order'], (state) => {
+  watch(store, ['panes', 'chosen', 'gallery', 'weightsFrom', 'order'], (state) => {
     const { panes, chosen, gallery, weightsFrom } = state;
     const names = panes.map(({ fabric }) => titleOf(fabric));
     const text = JSON.stringify([names, chosen, gallery, weightsFrom, state.order]);

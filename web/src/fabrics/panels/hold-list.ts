@@ -52,7 +52,7 @@ export function createHoldList(
   parent: HTMLElement,
   store: Store<FabricsState>,
   actions: HoldActions,
-): () => void {
+): void {
   const lists = {
     handle: element('ul', { class: 'holds' }),
     pin: element('ul', { class: 'holds' }),
@@ -87,7 +87,7 @@ export function createHoldList(
   }
 
   let listed = '';
-  const stop = watch(store, ['pins', 'handles'], (state) => {
+  watch(store, ['pins', 'handles'], (state) => {
     const holds = state.holds;
     const names = holds.map(({ kind, name }) => `${kind} ${name}`).join('\n');
     if (names === listed) return; // a move is no reason to take the focus away
@@ -102,8 +102,4 @@ export function createHoldList(
     }
     none.hidden = holds.length > 0;
   });
-  return () => {
-    stop();
-    section.remove();
-  };
 }

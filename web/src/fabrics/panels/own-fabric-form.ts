@@ -191,7 +191,7 @@ export function createOwnFabricForm(
   parent: HTMLElement,
   store: Store<DeformState>,
   actions: OwnFabricActions,
-): () => void {
+): void {
   let measures: Triple | null = null;
 
   function changed(): void {
@@ -231,7 +231,7 @@ export function createOwnFabricForm(
   for (const { term, input } of fields) input.value = String(first.measures[term]);
   box.open = first.isOwn;
   let listed = '';
-  return watch(store, ['ownFabric', 'problem', 'panes', 'gallery'], (state) => {
+  watch(store, ['ownFabric', 'problem', 'panes', 'gallery'], (state) => {
     const { panes, gallery, problem, ownFabric: own } = state;
     // The numbers of a pane change with every frame, the form does not.
     const text = JSON.stringify([panes.map(({ fabric }) => fabric.kind), gallery, problem, own]);

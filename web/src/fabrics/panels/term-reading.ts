@@ -102,7 +102,7 @@ export function comparedReading(panes: readonly PaneState[]): string[] {
 }
 
 /** The sentences for the chosen pane, and for how those side by side differ. */
-export function createTermReading(parent: HTMLElement, store: Store<DeformState>): () => void {
+export function createTermReading(parent: HTMLElement, store: Store<DeformState>): void {
   const list = element('ul', { class: 'plain-list' });
   parent.append(
     element(
@@ -113,7 +113,7 @@ export function createTermReading(parent: HTMLElement, store: Store<DeformState>
     ),
   );
   let shown = '';
-  return watch(store, ['panes', 'chosen', 'terms'], ({ panes, chosen, terms }) => {
+  watch(store, ['panes', 'chosen', 'terms'], ({ panes, chosen, terms }) => {
     const pane = panes[chosen];
     const sentences = pane ? [...paneReading(pane, terms), ...comparedReading(panes)] : [];
     const text = sentences.join('\n');

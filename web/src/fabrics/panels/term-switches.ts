@@ -75,7 +75,7 @@ export function createTermSwitches(
   parent: HTMLElement,
   store: Store<DeformState>,
   { setForm, setTerms }: SwitchActions,
-): () => void {
+): void {
   const forms = FORMS.map((one) => formOption(one, () => setForm(one.form)));
   const refusal = element('p', { class: 'field-error', role: 'status' });
   const terms = TERMS.map((term) =>
@@ -114,5 +114,5 @@ export function createTermSwitches(
       ),
     ),
   );
-  return watch(store, ['form', 'terms'], render);
+  watch(store, ['form', 'terms'], render);
 }

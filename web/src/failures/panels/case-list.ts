@@ -4,7 +4,7 @@ import { type Store, watch } from '../../shared/state/store';
 import { CASES } from '../state/failure-cases';
 import type { FailuresState } from '../state/failures-state';
 
-export function createCaseList(parent: HTMLElement, store: Store<FailuresState>): () => void {
+export function createCaseList(parent: HTMLElement, store: Store<FailuresState>): void {
   const buttons = CASES.map(({ id, title }) => button(title, () => store.set({ caseId: id })));
   parent.append(
     element(
@@ -14,7 +14,7 @@ export function createCaseList(parent: HTMLElement, store: Store<FailuresState>)
       element('div', { class: 'case-list' }, ...buttons),
     ),
   );
-  return watch(store, ['caseId'], ({ caseId }) => {
+  watch(store, ['caseId'], ({ caseId }) => {
     CASES.forEach(({ id }, index) => {
       buttons[index]?.setAttribute('aria-pressed', String(id === caseId));
     });

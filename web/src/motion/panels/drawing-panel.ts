@@ -13,7 +13,7 @@ const HEAT_TITLES: readonly { value: HeatMap; title: string }[] = [
   { value: 'distance', title: 'Distance to reference' },
 ];
 
-export function createDrawingPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createDrawingPanel(parent: HTMLElement, store: Store<MotionState>): void {
   const heat = choice(HEAT_TITLES, (value) => store.set({ heat: value }));
   const range = choice<string>(
     [
@@ -34,7 +34,7 @@ export function createDrawingPanel(parent: HTMLElement, store: Store<MotionState
       springs.label,
     ),
   );
-  return watch(store, ['heat', 'heatRange', 'edges', 'springs', 'numbers', 'setting'], (state) => {
+  watch(store, ['heat', 'heatRange', 'edges', 'springs', 'numbers', 'setting'], (state) => {
     const hasReference = referenceUrl(state.setting) !== null;
     heat.limit((value) => (value === 'distance' && !hasReference ? 'none of this scene' : null));
     heat.select(hasReference ? state.heat : shownHeat(state));

@@ -38,7 +38,7 @@ export function createDetailPanel(
   parent: HTMLElement,
   store: Store<RefinementState>,
   actions: { cancel(): void },
-): () => void {
+): void {
   const { input: demand, show: showDemand } = slider(
     { min: DEMANDS.least, max: DEMANDS.most, step: DEMANDS.step },
     (value) => store.set({ rule: 'demand', demand: value }),
@@ -58,7 +58,7 @@ export function createDetailPanel(
   const source = element('p', { class: 'note' });
   const work = element('div');
   const isOwn = ({ share, canCancel }: Doing) => share === null && canCancel;
-  const closeWork = createWork(work, store, actions, isOwn);
+  createWork(work, store, actions, isOwn);
   const sayDemand = () => setText(demandValue, `${demand.valueAsNumber} mm`);
   const sayBudget = () => {
     const text = vertices(budget.valueAsNumber);
@@ -80,7 +80,7 @@ export function createDetailPanel(
       source,
     ),
   );
-  const close = watch(
+  watch(
     store,
     ['rule', 'demand', 'budget', 'budgetRange', 'plan', 'useRecords', 'computeFine', 'panes'],
     (state) => {
@@ -99,8 +99,4 @@ export function createDetailPanel(
       setText(source, sourceSentence(state));
     },
   );
-  return () => {
-    close();
-    closeWork();
-  };
 }

@@ -56,10 +56,7 @@ function createWarning(store: Store<RefinementState>) {
   };
 }
 
-export function createGarmentBadges(
-  parent: HTMLElement,
-  store: Store<RefinementState>,
-): () => void {
+export function createGarmentBadges(parent: HTMLElement, store: Store<RefinementState>): void {
   const { control, show: showChoice } = createChoiceBeside(store);
   const grid = element('div', { class: 'panes garment-panes' });
   parent.append(control, grid);
@@ -80,7 +77,7 @@ export function createGarmentBadges(
     grid.append(cell);
     return { id, cell, count, cost, error, showWarning };
   });
-  return watch(
+  watch(
     store,
     ['panes', 'phase', 'isNarrow', 'beside', 'rival', 'computeFine', 'fineCloth'],
     (state) => {

@@ -64,7 +64,7 @@ function createLook(store: Store<RefinementState>) {
   };
 }
 
-export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementState>): () => void {
+export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementState>): void {
   const notice = element('p', { class: 'caption' });
   const garment = choice(GARMENTS, (value) =>
     store.set({
@@ -105,7 +105,7 @@ export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementS
       ...look.controls,
     ),
   );
-  return watch(
+  watch(
     store,
     [
       'garment',

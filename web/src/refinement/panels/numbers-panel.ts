@@ -81,7 +81,7 @@ function numberTable(state: RefinementState): HTMLElement {
 const MEANING =
   'Shape lost: with every vertex where the same point of the fine cloth is, how far the faces between them are from it, root mean square, and by what angle they are turned. It is the mesh’s own fault, without chance. Folds: how far they stand out around the garment, by their number, over all frames from 2 s on; and the surfaces now. In the column of fine: the same of a second fine run, in air heavier by a millionth. Then: vertices inside the body, and edges that go through the cloth itself, which nothing prevents. A frame is 1/30 s.';
 
-export function createNumbersPanel(parent: HTMLElement, store: Store<RefinementState>): () => void {
+export function createNumbersPanel(parent: HTMLElement, store: Store<RefinementState>): void {
   const levels = element('p');
   const loss = element('p');
   const { before, link, hash, after } = ONE_MORE_LEVEL;
@@ -103,7 +103,7 @@ export function createNumbersPanel(parent: HTMLElement, store: Store<RefinementS
       ),
     ),
   );
-  return watch(store, ['panes', 'rival', 'floor'], (state) => {
+  watch(store, ['panes', 'rival', 'floor'], (state) => {
     setText(levels, levelsSentence(state));
     setText(loss, lossSentence(state));
     table.replaceChildren(numberTable(state));

@@ -41,7 +41,7 @@ export function createStoryPanel(
   parent: HTMLElement,
   store: Store<RefinementState>,
   plannedMesh: () => GarmentMesh | null,
-): () => void {
+): void {
   const sentences = element('p');
   const patterns = element('div');
   const face = element('p', { class: 'face-story', 'aria-live': 'polite' });
@@ -55,7 +55,7 @@ export function createStoryPanel(
       face,
     ),
   );
-  return watch(store, ['plan', 'face', 'phase'], (state) => {
+  watch(store, ['plan', 'face', 'phase'], (state) => {
     setText(sentences, state.plan ? storySentences(planStory(state.plan)) : '');
     patterns.replaceChildren(patternTable(state));
     setText(face, faceText(state, plannedMesh()));

@@ -20,7 +20,7 @@ export const HAND_KEYS: Keys = [
   ['G or Escape', 'let go'],
 ];
 
-export function createKeyList(parent: HTMLElement, keys: Keys): () => void {
+export function createKeyList(parent: HTMLElement, keys: Keys): void {
   const list = element('dl', { class: 'keys' });
   for (const [key, meaning] of keys) {
     list.append(element('dt', {}, element('kbd', {}, key)), element('dd', {}, meaning));
@@ -32,7 +32,5 @@ export function createKeyList(parent: HTMLElement, keys: Keys): () => void {
     element('p', { class: 'note' }, 'They work while the picture has the focus.'),
     list,
   );
-  const section = element('section', { 'aria-label': 'Keys' }, box);
-  parent.append(section);
-  return () => section.remove();
+  parent.append(element('section', { 'aria-label': 'Keys' }, box));
 }

@@ -1,10 +1,7 @@
 // A button that asks for an OBJ file.
 import { button, element } from './element';
 
-export function createObjPicker(
-  parent: HTMLElement,
-  actions: { openObj(file: File): void },
-): () => void {
+export function createObjPicker(parent: HTMLElement, actions: { openObj(file: File): void }): void {
   const picker = element('input', {
     type: 'file',
     accept: '.obj',
@@ -16,10 +13,8 @@ export function createObjPicker(
       picker.value = ''; // choosing the same file, mended, is a change again
     },
   });
-  const open = button('Choose an OBJ file', () => picker.click(), { class: 'wide' });
-  parent.append(open, picker);
-  return () => {
-    open.remove();
-    picker.remove();
-  };
+  parent.append(
+    button('Choose an OBJ file', () => picker.click(), { class: 'wide' }),
+    picker,
+  );
 }

@@ -4,7 +4,7 @@ import { type Store, watch } from '../../../shared/state/store';
 import { later } from '../../run/later';
 import type { MotionState } from '../../state/motion-state';
 
-export function createContactPanel(section: HTMLElement, store: Store<MotionState>): () => void {
+export function createContactPanel(section: HTMLElement, store: Store<MotionState>): void {
   const box = element(
     'details',
     { class: 'contact', toggle: () => void open() },
@@ -18,7 +18,7 @@ export function createContactPanel(section: HTMLElement, store: Store<MotionStat
   async function open(): Promise<void> {
     if (box.open) (await bring())?.follow();
   }
-  return watch(store, ['colliders'], ({ colliders }) => {
+  watch(store, ['colliders'], ({ colliders }) => {
     section.hidden = colliders.length === 0;
   });
 }

@@ -57,7 +57,7 @@ function energyChart(samples: readonly EnergyNumbers[], lines: readonly EnergyLi
   };
 }
 
-export function createEnergyChart(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createEnergyChart(parent: HTMLElement, store: Store<MotionState>): void {
   const plot = createTimePlot('energy-over-time');
   const legend = element('ul', { class: 'marks energy-keys' });
   const words = element('figcaption');
@@ -93,5 +93,5 @@ export function createEnergyChart(parent: HTMLElement, store: Store<MotionState>
     if (asTable.open) fillTable(table, energies, lines);
   }
   // Energies change with each frame, and are drawn as often as numbers can be read.
-  return watch(store, ['energy', 'numbers'], render);
+  watch(store, ['energy', 'numbers'], render);
 }

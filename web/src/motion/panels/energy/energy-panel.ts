@@ -4,7 +4,7 @@ import { type Store, watch } from '../../../shared/state/store';
 import { later } from '../../run/later';
 import type { MotionState } from '../../state/motion-state';
 
-export function createEnergyPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createEnergyPanel(parent: HTMLElement, store: Store<MotionState>): void {
   const box = element(
     'details',
     { class: 'energy', toggle: () => store.set({ energy: box.open }) },
@@ -12,11 +12,10 @@ export function createEnergyPanel(parent: HTMLElement, store: Store<MotionState>
   );
   parent.append(element('section', { 'aria-label': 'Energy' }, box));
   const bring = later(store, 'The plot of energy', async () => {
-    const { createEnergyChart } = await import('./energy-chart');
-    return createEnergyChart(box, store);
+    (await import('./energy-chart')).createEnergyChart(box, store);
   });
-  return watch(store, ['energy'], async ({ energy }) => {
+  watch(store, ['energy'], async ({ energy }) => {
     box.open = energy;
-    if (energy && !(await bring())) store.set({ energy: false });
+    if (energy && (await bring()) === null) store.set({ energy: false });
   });
 }

@@ -15,7 +15,7 @@ const HOW = {
   thinned: 'A vertex went wherever two of its neighbours stay.',
 } as const;
 
-export function createLevelForm(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createLevelForm(parent: HTMLElement, store: Store<MotionState>): void {
   const shown = element('div', { class: 'pair' });
   const makers = choice(
     LEVEL_MAKERS.map((value) => ({ value, title: stepperRow(value).title })),
@@ -39,7 +39,7 @@ export function createLevelForm(parent: HTMLElement, store: Store<MotionState>):
     shown.replaceChildren(field('Level', levels.control), makerField);
   }
 
-  return watch(
+  watch(
     store,
     ['coarse', 'coarseAs', 'coarseLevels', 'setting', 'summary'],
     ({ coarse, coarseAs, coarseLevels, setting, summary }) => {

@@ -4,7 +4,7 @@ import { type Store, watch } from '../../../shared/state/store';
 import { later } from '../../run/later';
 import type { MotionState } from '../../state/motion-state';
 
-export function createLevelPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createLevelPanel(parent: HTMLElement, store: Store<MotionState>): void {
   const box = element(
     'details',
     { class: 'coarse', toggle: () => box.open && void bring() },
@@ -14,7 +14,7 @@ export function createLevelPanel(parent: HTMLElement, store: Store<MotionState>)
   const bring = later(store, 'What chooses a level', async () => {
     (await import('./level-form')).createLevelForm(box, store);
   });
-  return watch(store, ['coarse'], ({ coarse }) => {
+  watch(store, ['coarse'], ({ coarse }) => {
     if (coarse > 0) box.open = true;
   });
 }

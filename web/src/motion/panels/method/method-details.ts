@@ -55,7 +55,7 @@ function detailField(detail: Detail, choose: Choose) {
   };
 }
 
-export function createMethodDetails(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createMethodDetails(parent: HTMLElement, store: Store<MotionState>): void {
   const fields = (details as readonly Detail[]).map((detail) =>
     detailField(detail, (value) =>
       store.set({ setting: withDetail(store.get().setting, detail.key, value) }),
@@ -79,7 +79,7 @@ export function createMethodDetails(parent: HTMLElement, store: Store<MotionStat
   );
   box.open = store.get().setting.details !== undefined;
   parent.append(box);
-  return watch(store, ['setting'], ({ setting }) => {
+  watch(store, ['setting'], ({ setting }) => {
     box.hidden = Object.keys(stepperRow(setting.stepper).details).length === 0;
     for (const one of fields) one.show(setting);
   });

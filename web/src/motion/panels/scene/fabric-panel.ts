@@ -11,7 +11,7 @@ import { type Store, watch } from '../../../shared/state/store';
 import type { MotionState } from '../../state/motion-state';
 import { ownQuantities } from '../../state/setting';
 
-export function createFabricPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createFabricPanel(parent: HTMLElement, store: Store<MotionState>): void {
   const names = choice(
     fabrics.map((fabric) => ({
       value: fabric.name_en,
@@ -52,7 +52,7 @@ export function createFabricPanel(parent: HTMLElement, store: Store<MotionState>
     ),
   );
   let shown = '';
-  return watch(store, ['setting'], ({ setting }) => {
+  watch(store, ['setting'], ({ setting }) => {
     const own = ownQuantities(setting);
     const wanted = JSON.stringify([setting.fabric, own]);
     if (wanted === shown) return;

@@ -85,7 +85,7 @@ function numberField(place: KnitPlace, onChange: (value: number) => void) {
   };
 }
 
-export function createKnitForm(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createKnitForm(parent: HTMLElement, store: Store<MotionState>): void {
   const refused = element('p', { class: 'note', role: 'status' });
   function change(patch: Partial<Knit>): void {
     const { setting } = store.get();
@@ -127,7 +127,7 @@ export function createKnitForm(parent: HTMLElement, store: Store<MotionState>): 
     reset,
   );
   parent.append(box);
-  return watch(store, ['setting', 'summary'], (state) => {
+  watch(store, ['setting', 'summary'], (state) => {
     const { knit } = state.setting;
     box.hidden = !knit;
     if (!knit) return;

@@ -46,7 +46,7 @@ export function createObjPanel(
   parent: HTMLElement,
   store: Store<MotionState>,
   actions: ObjActions,
-): () => void {
+): void {
   const holds = element('select', {
     change() {
       const { setting } = store.get();
@@ -56,13 +56,13 @@ export function createObjPanel(
   const held = field('Held by', holds);
   const note = element('p', { class: 'note' });
   const box = element('div', { class: 'mesh' });
-  const closePicker = createObjPicker(box, { openObj: (file) => actions.open(file) });
+  createObjPicker(box, { openObj: (file) => actions.open(file) });
   const unit = createObjUnit((value) => actions.setUnit(value));
   const reading = createReading(() => actions.cancel());
   box.append(reading.box, unit.box, held, note);
   parent.append(box);
   let listed: ObjMesh | null = null;
-  const stop = watch(store, ['setting', 'mesh', 'reading'], ({ setting, mesh, reading: name }) => {
+  watch(store, ['setting', 'mesh', 'reading'], ({ setting, mesh, reading: name }) => {
     box.hidden = setting.preset !== 'obj' && name === null;
     reading.show(name);
     held.hidden = mesh === null;
@@ -78,8 +78,4 @@ export function createObjPanel(
     holds.value = holdFor(mesh, setting.hold);
     setText(note, sentences(mesh));
   });
-  return () => {
-    stop();
-    closePicker();
-  };
 }

@@ -82,7 +82,7 @@ export function createSpeedErrorView(
   parent: HTMLElement,
   store: Store<MotionState>,
   actions: Pick<MotionRun, 'showAnew'>,
-): () => void {
+): void {
   function use(index: number): void {
     const { sweep, setting } = store.get();
     const row = sweep.rows[index];
@@ -110,7 +110,7 @@ export function createSpeedErrorView(
     note,
   );
   let drawn = '';
-  return watch(store, ['sweep', 'sweepOpen', 'setting'], (state) => {
+  watch(store, ['sweep', 'sweepOpen', 'setting'], (state) => {
     parent.hidden = !state.sweepOpen;
     if (!state.sweepOpen) return;
     const { sweep } = state;

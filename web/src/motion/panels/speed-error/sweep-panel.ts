@@ -67,7 +67,7 @@ export function createSweepPanel(
   store: Store<MotionState>,
   sweep: Sweep,
   showChart: () => void,
-): () => void {
+): void {
   const wish: SweepWish = { finest: FIRST_FINEST, withSlow: false };
   const levels = choice(FINEST, (level) => {
     wish.finest = level;
@@ -115,7 +115,7 @@ export function createSweepPanel(
     expected.hidden = state.sweep.phase === 'running';
     setText(expected, expectation(state, wish));
   }
-  return watch(store, ['sweep', 'phase', 'setting', 'costs'], (state) => {
+  watch(store, ['sweep', 'phase', 'setting', 'costs'], (state) => {
     slow.show(state.setting.model);
     levelsField.hidden = levelsOf(state.setting.preset).length === 1;
     showExpectation(state);
