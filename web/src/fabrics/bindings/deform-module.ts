@@ -41,8 +41,10 @@ export interface DeformReport {
 export interface FitAnswer {
   weights: TermNumbers;
   normalised: TermNumbers;
+  /** RMS, in normalised measures. */
   leave_one_out_error: TermNumbers;
   measured_range: Record<keyof TermNumbers, [number, number]>;
+  /** Measures outside the measured range, which were clamped to it. */
   clamped: (keyof TermNumbers)[];
   nearest: string;
 }

@@ -7,15 +7,9 @@ import { lineKey } from '../../shared/panels/line-key';
 import { createNumberTable, fillHead } from '../../shared/panels/number-table';
 import { digits } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
-import {
-  type DeformState,
-  type DeformStep,
-  type PaneState,
-  TERMS,
-  type Term,
-} from '../state/deform-state';
+import { type DeformState, type PaneState, TERMS, type Term } from '../state/deform-state';
 import { titleOf } from '../state/fabric-choice';
-import { triple } from '../state/fabric-geometry';
+import { perTerm } from '../state/fabric-geometry';
 import { TERM_TITLES } from './term-words';
 
 const WIDTH = 360;
@@ -34,21 +28,16 @@ const WIDE_RATIO = 30;
 /** More steps than this have no number of their own on the axis. */
 const MOST_LABELS = 8;
 
-/** Energy that each step left: the weighted terms add up to the energy. */
-export interface WeightedStep {
-  energy: number;
-  terms: Record<Term, number>;
-  relative_step: number;
-  linearised: boolean;
-}
+type Steps = PaneState['steps'];
 
+/** Energy that each step left: the weighted terms add up to the energy. */
 export function weightedSteps(
   { steps, weights }: Pick<PaneState, 'steps' | 'weights'>,
   counts: Record<Term, boolean>,
-): WeightedStep[] {
-  return steps.map((step: DeformStep) => ({
+): Steps {
+  return steps.map((step) => ({
     ...step,
-    terms: triple((term) => (counts[term] ? weights[term] * step.terms[term] : 0)),
+    terms: perTerm((term) => (counts[term] ? weights[term] * step.terms[term] : 0)),
   }));
 }
 
@@ -60,7 +49,7 @@ export function isWide(energies: readonly number[]): boolean {
 }
 
 /** "After 12 steps, 3 of them linearised anew, the energy is 1.2, of 3.4 after the first." */
-export function curveWords(name: string, steps: readonly WeightedStep[], pane: PaneState): string {
+export function curveWords(name: string, steps: Steps, pane: PaneState): string {
   const [first] = steps;
   const last = steps.at(-1);
   if (!first || !last) return 'No step yet: pull a handle.';
@@ -96,7 +85,7 @@ function verticalAxis(energies: readonly number[]): VerticalAxis {
   };
 }
 
-function draw(root: SVGElement, steps: readonly WeightedStep[]): void {
+function draw(root: SVGElement, steps: Steps): void {
   const energies = steps.flatMap(({ energy, terms }) => [energy, ...TERMS.map((t) => terms[t])]);
   const { ticks, y } = verticalAxis(energies);
   const width = WIDTH - LEFT - RIGHT;
@@ -128,7 +117,7 @@ function draw(root: SVGElement, steps: readonly WeightedStep[]): void {
       'energy',
     ),
   );
-  function curve(kind: string, energyOf: (step: WeightedStep) => number): void {
+  function curve(kind: string, energyOf: (step: Steps[number]) => number): void {
     const points = steps.map((step, index): [number, number] | null => {
       const at = y(energyOf(step));
       return at === null ? null : [xOf(index), at];
@@ -152,7 +141,7 @@ function draw(root: SVGElement, steps: readonly WeightedStep[]): void {
   root.replaceChildren(...parts);
 }
 
-function tableRow(step: WeightedStep, index: number): HTMLElement {
+function tableRow(step: Steps[number], index: number): HTMLElement {
   const numbers = [step.energy, ...TERMS.map((term) => step.terms[term]), step.relative_step];
   return element(
     'tr',
@@ -202,7 +191,7 @@ export function createEnergyCurve(parent: HTMLElement, store: Store<DeformState>
     ),
   );
 
-  let steps: WeightedStep[] = [];
+  let steps: Steps = [];
 
   function fill(): void {
     if (numbers.open) table.rows.replaceChildren(...steps.map(tableRow));

@@ -1,4 +1,5 @@
 // One fabric: its use, what to expect of it, its weights and measurements, its physical numbers.
+
 import { type FabricRecord, fabricNamed, fabrics, sources } from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { checkBox, element, setText } from '../../shared/panels/element';
@@ -10,7 +11,8 @@ import {
 } from '../../shared/panels/fabric-quantities';
 import { digits, percent } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
-import { type DeformState, type OwnFabric, TERMS, type Triple } from '../state/deform-state';
+import type { FitAnswer, TermNumbers } from '../bindings/deform-module';
+import { type DeformState, TERMS } from '../state/deform-state';
 import { titleOf } from '../state/fabric-choice';
 import { EXPECTATIONS } from '../state/fabric-expectations';
 import { geometryOf } from '../state/fabric-geometry';
@@ -28,11 +30,11 @@ export function misprint(recomputed: number, published: number): string | null {
 }
 
 interface Shown {
-  weights: Triple;
-  measures: Triple;
-  normalised: Triple;
+  weights: TermNumbers;
+  measures: TermNumbers;
+  normalised: TermNumbers;
   /** Null when nobody printed any. */
-  published: Triple | null;
+  published: TermNumbers | null;
 }
 
 function shownOf(fabric: FabricRecord): Shown {
@@ -151,7 +153,7 @@ function physicalBox(fabric: FabricRecord): HTMLElement {
   );
 }
 
-function ownShown({ weights, normalised }: OwnFabric, measures: Triple): Shown {
+function ownShown({ weights, normalised }: FitAnswer, measures: TermNumbers): Shown {
   return { weights, measures, normalised, published: null };
 }
 
@@ -206,7 +208,7 @@ export function createFabricCard(
     body.replaceChildren(...parts);
   }
 
-  function showOwn(own: OwnFabric, measures: Triple): void {
+  function showOwn(own: FitAnswer, measures: TermNumbers): void {
     setText(use, 'measured by you');
     setText(
       expectation,

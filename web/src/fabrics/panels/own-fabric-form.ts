@@ -1,15 +1,11 @@
 // Three measurements of a visitor's own fabric, and what the measured ones make of them.
+
 import { fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
 import { button, element, field, setText } from '../../shared/panels/element';
 import { digits, percent } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
-import {
-  type DeformState,
-  type OwnFabric,
-  TERMS,
-  type Term,
-  type Triple,
-} from '../state/deform-state';
+import type { FitAnswer, TermNumbers } from '../bindings/deform-module';
+import { type DeformState, TERMS, type Term } from '../state/deform-state';
 import { LARGEST_RATIO } from '../state/fabric-choice';
 import { errorOfMean, geometryOf, measuredRange } from '../state/fabric-geometry';
 import { TERM_MEASUREMENTS, TERM_TITLES } from './term-words';
@@ -17,9 +13,9 @@ import { createWeightBar, termKey } from './weight-bar';
 
 export interface OwnFabricActions {
   /** Fits weights to these; asked for with every change. */
-  measure(measures: Triple): void;
+  measure(measures: TermNumbers): void;
   /** Shows the own fabric in the chosen pane. */
-  show(measures: Triple): void;
+  show(measures: TermNumbers): void;
   /** Closes the pane that shows it. */
   hide(): void;
 }
@@ -44,8 +40,8 @@ export function readMeasure(term: Term, text: string): number | string {
 
 /** "Your stretch of 1.3000 is outside …"; one sentence for each that was clamped. */
 export function clampedWords(
-  { clamped, measured_range: ranges }: OwnFabric,
-  measures: Triple,
+  { clamped, measured_range: ranges }: FitAnswer,
+  measures: TermNumbers,
 ): string[] {
   return clamped.map((term) => {
     const [low, high] = ranges[term];
@@ -60,7 +56,7 @@ const SAME_ERROR = 1e-3;
 /** How far each weight is to be trusted. */
 export function trustWords({
   leave_one_out_error,
-}: Pick<OwnFabric, 'leave_one_out_error'>): string[] {
+}: Pick<FitAnswer, 'leave_one_out_error'>): string[] {
   return TERMS.map((term) => {
     const title = TERM_TITLES[term];
     const error = digits(leave_one_out_error[term], 2);
@@ -132,7 +128,7 @@ function createResult(showIt: () => void) {
   const parts = [summary, bar, table, clamped, trustBox, showing];
   const box = element('div', { class: 'own-result' }, ...parts);
 
-  function row(term: Term, own: OwnFabric): HTMLElement {
+  function row(term: Term, own: FitAnswer): HTMLElement {
     return element(
       'tr',
       {},
@@ -144,7 +140,7 @@ function createResult(showIt: () => void) {
 
   return {
     box,
-    show(own: OwnFabric | null, measures: Triple | null): void {
+    show(own: FitAnswer | null, measures: TermNumbers | null): void {
       box.hidden = !own || !measures;
       if (!own || !measures) return;
       showWeights(own.weights);
@@ -160,7 +156,7 @@ function createResult(showIt: () => void) {
 type MeasureField = ReturnType<typeof measureField>;
 
 /** The three measures, or null while one of them is none. */
-function readMeasures(fields: readonly MeasureField[]): Triple | null {
+function readMeasures(fields: readonly MeasureField[]): TermNumbers | null {
   const values = fields.map(({ term, input }) => readMeasure(term, input.value));
   const [recovery, stretch, bending] = values;
   const areNumbers =
@@ -179,7 +175,7 @@ function tellProblems(fields: readonly MeasureField[], { problem }: DeformState)
 }
 
 /** The own fabric's measures, or for a start those of the chosen one. */
-function firstMeasures({ panes, chosen }: DeformState): { measures: Triple; isOwn: boolean } {
+function firstMeasures({ panes, chosen }: DeformState): { measures: TermNumbers; isOwn: boolean } {
   const own = panes.find(({ fabric }) => fabric.kind === 'own')?.fabric;
   if (own?.kind === 'own') return { measures: own.measures, isOwn: true };
   const { fabric } = panes[chosen] ?? {};
@@ -192,7 +188,7 @@ export function createOwnFabricForm(
   store: Store<DeformState>,
   actions: OwnFabricActions,
 ): void {
-  let measures: Triple | null = null;
+  let measures: TermNumbers | null = null;
 
   function changed(): void {
     measures = readMeasures(fields);

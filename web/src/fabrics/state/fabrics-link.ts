@@ -1,10 +1,11 @@
 // The view of fabrics to a link and back: experiment, fabrics, terms, and what was moved by hand.
-import type { Triple as Vector } from '../../shared/bindings/geometry';
+import type { Triple } from '../../shared/bindings/geometry';
 import { fabrics } from '../../shared/fabric/fabric-data';
 import { createLinkReader, oneOf, slug } from '../../shared/state/link-reader';
 import { type DeformState, type FabricChoice, TERMS, type Term } from './deform-state';
 import { EXPERIMENTS, OWN } from './experiments';
 import { LARGEST_RATIO, MOST_COMPARED, titleOf } from './fabric-choice';
+import { perTerm } from './fabric-geometry';
 import { type FabricOrder, ORDERS } from './fabric-order';
 import type { FabricsLink, FabricsState, LinkedHold } from './fabrics-state';
 import { type HeldCloth, type Hold, holdAt } from './holds';
@@ -39,7 +40,7 @@ function numbersIn(text: string | undefined): number[] {
   return (text ?? '').split(',').map((part) => (part.trim() === '' ? Number.NaN : Number(part)));
 }
 
-function vectorIn(text: string | undefined): Vector | undefined {
+function vectorIn(text: string | undefined): Triple | undefined {
   const [x, y, z, ...rest] = numbersIn(text);
   if (x === undefined || y === undefined || z === undefined || rest.length > 0) return undefined;
   return [x, y, z].every(Number.isFinite) ? [x, y, z] : undefined;
@@ -170,11 +171,7 @@ export function decodeFabricsLink(hash: string): { link: FabricsLink; problems: 
     gallery,
     order,
     form,
-    terms: {
-      recovery: terms.includes('recovery'),
-      stretch: terms.includes('stretch'),
-      bending: terms.includes('bending'),
-    },
+    terms: perTerm((term) => terms.includes(term)),
     weightsFrom,
     chosen,
     edges,
@@ -184,7 +181,7 @@ export function decodeFabricsLink(hash: string): { link: FabricsLink; problems: 
   return { link, problems: finish() };
 }
 
-function isWithinReach({ grasp_m }: HeldCloth, offset: Vector): boolean {
+function isWithinReach({ grasp_m }: HeldCloth, offset: Triple): boolean {
   return Math.hypot(...offset) <= FARTHEST_GRASPS * grasp_m;
 }
 
