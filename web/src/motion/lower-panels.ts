@@ -1,6 +1,7 @@
 // The panels that are far down: they come once there is a cloth to be told of.
-import { element } from '../shared/panels/element';
+
 import { createKeyList, HAND_KEYS } from '../shared/panels/keys-panel';
+import { addSection } from '../shared/panels/section';
 import { type Store, watch } from '../shared/state/store';
 import { createConvergencePanel } from './panels/convergence/convergence-panel';
 import { createEnergyPanel } from './panels/energy/energy-panel';
@@ -46,8 +47,7 @@ function createLaterSweep(store: Store<MotionState>): Sweep {
 
 /** Tells what contact does where there are solids. */
 function createLaterContact(parent: HTMLElement, store: Store<MotionState>): void {
-  const section = element('section', { 'aria-label': 'Contact' });
-  parent.append(section);
+  const section = addSection(parent, 'Contact');
   const bring = later(store, 'The panel of contact', async () => {
     const { createContactPanel } = await import('./panels/contact/contact-panel');
     return createContactPanel(section, store);

@@ -1,4 +1,5 @@
 // The energy after each step towards the shape, in whole and term by term, drawn and as a table.
+
 import { linearScale } from '../../shared/chart/linear-scale';
 import { logScale } from '../../shared/chart/log-scale';
 import { pathThrough } from '../../shared/chart/path-through';
@@ -6,6 +7,8 @@ import { element, setText, svg } from '../../shared/panels/element';
 import { lineKey } from '../../shared/panels/line-key';
 import { createNumberTable, fillHead } from '../../shared/panels/number-table';
 import { digits } from '../../shared/panels/quantity';
+import { addSection, folded, noteLine } from '../../shared/panels/section';
+import { numberCell, rowOf } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
 import { type DeformState, type PaneState, TERMS, type Term } from '../state/deform-state';
 import { titleOf } from '../state/fabric-choice';
@@ -143,11 +146,9 @@ function draw(root: SVGElement, steps: Steps): void {
 
 function tableRow(step: Steps[number], index: number): HTMLElement {
   const numbers = [step.energy, ...TERMS.map((term) => step.terms[term]), step.relative_step];
-  return element(
-    'tr',
-    {},
-    element('th', { scope: 'row' }, String(index + 1)),
-    ...numbers.map((value) => element('td', { class: 'number' }, digits(value))),
+  return rowOf(
+    String(index + 1),
+    ...numbers.map((value) => numberCell(digits(value))),
     element('td', {}, step.linearised ? 'new' : ''),
   );
 }
@@ -168,27 +169,22 @@ export function createEnergyCurve(parent: HTMLElement, store: Store<DeformState>
   );
   const table = createNumberTable('Steps', 'Energy after each step', 'step-rows');
   fillHead(table, ['Step', 'Energy', ...TERMS.map((term) => TERM_TITLES[term]), 'Move', 'Matrix']);
-  const numbers = element(
-    'details',
+  const numbers = folded(
+    'The same as a table',
     { toggle: () => fill() },
-    element('summary', {}, 'The same as a table'),
-    element(
-      'p',
-      { class: 'note' },
+    noteLine(
       'Energies have no unit. Each term is weighted; the three add up to the energy. Move: how far the points went, as a part of the size of the cloth (RMS).',
     ),
     table.box,
   );
   const figure = element('figure', { class: 'chart' });
   figure.append(legend, root, words);
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'Energy of each step' },
-      element('h2', {}, 'Energy of each step'),
-      figure,
-      numbers,
-    ),
+  addSection(
+    parent,
+    'Energy of each step',
+    element('h2', {}, 'Energy of each step'),
+    figure,
+    numbers,
   );
 
   let steps: Steps = [];

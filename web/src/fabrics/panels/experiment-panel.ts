@@ -3,6 +3,7 @@ import { choice, element, field, setText } from '../../shared/panels/element';
 import { createObjPicker } from '../../shared/panels/obj-picker';
 import { createObjUnit, ownMeshWords } from '../../shared/panels/obj-unit';
 import { createReading } from '../../shared/panels/reading';
+import { addSection, noteLine } from '../../shared/panels/section';
 import type { ObjUnit } from '../../shared/state/obj-file';
 import { type Store, watch } from '../../shared/state/store';
 import { EXPERIMENTS, OWN } from '../state/experiments';
@@ -40,10 +41,10 @@ export function createExperimentPanel(
   ];
   const chosen = choice(options, (id) => actions.openExperiment(id));
   const caption = element('p', { class: 'caption' });
-  const size = element('p', { class: 'note' });
-  const section = element(
-    'section',
-    { 'aria-label': 'Experiment' },
+  const size = noteLine();
+  const section = addSection(
+    parent,
+    'Experiment',
     field('Experiment', chosen.control),
     caption,
     size,
@@ -53,7 +54,6 @@ export function createExperimentPanel(
   section.append(unit.box);
   createObjPicker(section, actions);
   section.append(reading.box);
-  parent.append(section);
   watch(store, ['experiment', 'cloth', 'objName', 'reading'], (state) => {
     chosen.select(state.experiment);
     chosen.limit((id) => (id === OWN && !state.objName ? 'choose a file below' : null));

@@ -10,6 +10,8 @@ import {
   sourceList,
 } from '../../shared/panels/fabric-quantities';
 import { digits, percent } from '../../shared/panels/quantity';
+import { folded, noteLine } from '../../shared/panels/section';
+import { numberCell } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
 import type { FitAnswer, TermNumbers } from '../bindings/deform-module';
 import { type DeformState, TERMS } from '../state/deform-state';
@@ -70,8 +72,8 @@ function weightRows({ weights, published }: Shown): HTMLElement[] {
         TERM_TITLES[term],
         element('small', {}, `avoids ${TERM_COSTS[term]}`),
       ),
-      element('td', { class: 'number' }, exact),
-      element('td', { class: 'number' }, published ? (printed ?? 'same') : '–'),
+      numberCell(exact),
+      numberCell(published ? (printed ?? 'same') : '–'),
     );
   });
 }
@@ -87,14 +89,14 @@ function measureRows({ measures, normalised }: Shown): HTMLElement[] {
         TERM_TITLES[term],
         element('small', {}, TERM_MEASUREMENTS[term]),
       ),
-      element('td', { class: 'number' }, measures[term].toFixed(4)),
-      element('td', { class: 'number' }, digits(normalised[term], 2)),
+      numberCell(measures[term].toFixed(4)),
+      numberCell(digits(normalised[term], 2)),
     ),
   );
 }
 
 function details(summary: string, ...content: Node[]): HTMLElement {
-  return element('details', {}, element('summary', {}, summary), ...content);
+  return folded(summary, {}, ...content);
 }
 
 function table(kind: string, caption: string, ...content: HTMLElement[]): HTMLElement {
@@ -126,21 +128,17 @@ function measurementBox(shown: Shown): HTMLElement {
   return details(
     'What was measured',
     termTable('Geometric measurements', ['Test', 'Ratio', 'Normalised'], measureRows(shown)),
-    element(
-      'p',
-      { class: 'note' },
+    noteLine(
       'The weights are the shares of the normalised values. How these follow from the ratios is not printed: presumably from the spread of the twenty tests of each fabric.',
     ),
-    element('p', { class: 'note' }, `Source: ${sources.SEED ?? ''}.`),
+    noteLine(`Source: ${sources.SEED ?? ''}.`),
   );
 }
 
 function physicalBox(fabric: FabricRecord): HTMLElement {
   return details(
     'Physical numbers',
-    element(
-      'p',
-      { class: 'note' },
+    noteLine(
       `For the fabric in motion; the shape here does not use them. Taken as: ${fabric.assumed_construction}.`,
     ),
     table(
@@ -171,7 +169,7 @@ export function createFabricCard(
   const name = element('h2', {});
   const use = element('span', { class: 'note' });
   const expectation = element('p', { class: 'caption' });
-  const stiffness = element('p', { class: 'note' });
+  const stiffness = noteLine();
   const { bar, show } = createWeightBar();
   const { input: printed, label: printedLine } = checkBox(
     'Use the weights as they are printed',
@@ -201,7 +199,7 @@ export function createFabricCard(
     const shown = shownOf(fabric);
     const parts = [
       weightTable(shown),
-      element('p', { class: 'note' }, WEIGHTS_NOTE),
+      noteLine(WEIGHTS_NOTE),
       measurementBox(shown),
       physicalBox(fabric),
     ];
@@ -216,11 +214,7 @@ export function createFabricCard(
     );
     show(own.weights);
     const shown = ownShown(own, measures);
-    body.replaceChildren(
-      weightTable(shown),
-      element('p', { class: 'note' }, WEIGHTS_NOTE),
-      measurementBox(shown),
-    );
+    body.replaceChildren(weightTable(shown), noteLine(WEIGHTS_NOTE), measurementBox(shown));
   }
 
   let drawn = '';

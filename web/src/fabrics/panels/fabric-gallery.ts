@@ -9,6 +9,7 @@ import {
   setText,
 } from '../../shared/panels/element';
 import { quantityText } from '../../shared/panels/fabric-quantities';
+import { addSection, noteLine } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import { type DeformState, type FabricChoice, TERMS } from '../state/deform-state';
 import { type Comparison, isSame, titleOf, withShown, withToggled } from '../state/fabric-choice';
@@ -233,7 +234,7 @@ export function createFabricGallery(
   });
   const { grid, leaveBoxes, order: orderRows } = createGrid(rows);
   const order = choiceOf(ORDER_TITLES, actions.setOrder);
-  const orderWords = element('p', { class: 'note' });
+  const orderWords = noteLine();
   const legend = element(
     'ul',
     { class: 'marks', 'aria-label': 'Bars' },
@@ -242,20 +243,18 @@ export function createFabricGallery(
   const all = buttonOf('All fifteen at once', () => actions.showAll(!store.get().gallery), {
     class: 'wide',
   });
-  const hint = element('p', { class: 'note' });
+  const hint = noteLine();
   const refusal = element('p', { class: 'note', role: 'status' });
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'Choice of fabrics' },
-      all,
-      hint,
-      field('Order', order.control),
-      orderWords,
-      legend,
-      grid,
-      refusal,
-    ),
+  addSection(
+    parent,
+    'Choice of fabrics',
+    all,
+    hint,
+    field('Order', order.control),
+    orderWords,
+    legend,
+    grid,
+    refusal,
   );
 
   let ordered: FabricOrder = 'source';

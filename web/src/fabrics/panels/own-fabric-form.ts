@@ -3,6 +3,8 @@
 import { fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
 import { button, element, field, setText } from '../../shared/panels/element';
 import { digits, percent } from '../../shared/panels/quantity';
+import { addSection, folded, noteLine } from '../../shared/panels/section';
+import { numberCell, rowOf } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
 import type { FitAnswer, TermNumbers } from '../bindings/deform-module';
 import { type DeformState, TERMS, type Term } from '../state/deform-state';
@@ -117,24 +119,16 @@ function createResult(showIt: () => void) {
     rows,
   );
   const note = `A guess from ${fabrics.length} fabrics, whose measurements hardly tell their weights. Leaving each measured fabric out in turn, the curve through the others misses its normalised value (0 to 1):`;
-  const trustBox = element(
-    'details',
-    {},
-    element('summary', {}, 'How far to trust it'),
-    element('p', { class: 'note' }, note),
-    trust,
-  );
+  const trustBox = folded('How far to trust it', {}, noteLine(note), trust);
   const showing = button('Show it', showIt, { class: 'wide' });
   const parts = [summary, bar, table, clamped, trustBox, showing];
   const box = element('div', { class: 'own-result' }, ...parts);
 
   function row(term: Term, own: FitAnswer): HTMLElement {
-    return element(
-      'tr',
-      {},
-      element('th', { scope: 'row' }, termKey(term), TERM_TITLES[term]),
-      element('td', { class: 'number' }, digits(own.normalised[term], 2)),
-      element('td', { class: 'number' }, percent(own.weights[term])),
+    return rowOf(
+      [termKey(term), TERM_TITLES[term]],
+      numberCell(digits(own.normalised[term], 2)),
+      numberCell(percent(own.weights[term])),
     );
   }
 
@@ -199,20 +193,19 @@ export function createOwnFabricForm(
   const fields = TERMS.map((term) => measureField(term, changed));
   const result = createResult(() => measures && actions.show(measures));
   const hideIt = button('Take it away', actions.hide, { class: 'wide' });
-  const box = element(
-    'details',
+  const box = folded(
+    'Your own fabric',
     {
       toggle() {
         if (box.open && !measures) changed();
       },
     },
-    element('summary', {}, 'Your own fabric'),
-    element('p', { class: 'note' }, 'Three ratios, measured on a sample of 46 × 40 cm.'),
+    noteLine('Three ratios, measured on a sample of 46 × 40 cm.'),
     ...fields.map((one) => one.box),
     result.box,
     hideIt,
   );
-  parent.append(element('section', { 'aria-label': 'Your own fabric' }, box));
+  addSection(parent, 'Your own fabric', box);
 
   function render(): void {
     const state = store.get();

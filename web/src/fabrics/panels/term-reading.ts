@@ -2,6 +2,7 @@
 
 import { element } from '../../shared/panels/element';
 import { digits, percent } from '../../shared/panels/quantity';
+import { addSection } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import type { TermNumbers } from '../bindings/deform-module';
 import { type DeformState, type PaneState, TERMS, type Term } from '../state/deform-state';
@@ -100,14 +101,7 @@ export function comparedReading(panes: readonly PaneState[]): string[] {
 /** The sentences for the chosen pane, and for how those side by side differ. */
 export function createTermReading(parent: HTMLElement, store: Store<DeformState>): void {
   const list = element('ul', { class: 'plain-list' });
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'What the numbers say' },
-      element('h2', {}, 'What the numbers say'),
-      list,
-    ),
-  );
+  addSection(parent, 'What the numbers say', element('h2', {}, 'What the numbers say'), list);
   let shown = '';
   watch(store, ['panes', 'chosen', 'terms'], ({ panes, chosen, terms }) => {
     const pane = panes[chosen];

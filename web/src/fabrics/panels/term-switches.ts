@@ -1,5 +1,6 @@
 // Switches for the form of the energy and for its terms, each with what that changes.
 import { element, setText } from '../../shared/panels/element';
+import { addSection } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import { type DeformState, type EnergyForm, TERMS, type Term } from '../state/deform-state';
 import { TERM_TITLES } from './term-words';
@@ -95,23 +96,21 @@ export function createTermSwitches(
     }
   }
 
-  parent.append(
+  addSection(
+    parent,
+    'Energy',
     element(
-      'section',
-      { 'aria-label': 'Energy' },
-      element(
-        'fieldset',
-        { class: 'field' },
-        element('legend', {}, 'Form of the energy'),
-        ...forms.map(({ line }) => line),
-      ),
-      element(
-        'fieldset',
-        { class: 'field' },
-        element('legend', {}, 'Terms that count'),
-        ...terms.map(({ line }) => line),
-        refusal,
-      ),
+      'fieldset',
+      { class: 'field' },
+      element('legend', {}, 'Form of the energy'),
+      ...forms.map(({ line }) => line),
+    ),
+    element(
+      'fieldset',
+      { class: 'field' },
+      element('legend', {}, 'Terms that count'),
+      ...terms.map(({ line }) => line),
+      refusal,
     ),
   );
   watch(store, ['form', 'terms'], render);

@@ -1,5 +1,6 @@
 // Why the naive way breaks, what holds, and what told of it.
 import { element, setText } from '../../shared/panels/element';
+import { addSection, noteLine } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import { caseNamed } from '../state/failure-cases';
 import type { FailuresState } from '../state/failures-state';
@@ -11,17 +12,15 @@ export function createCaseStory(parent: HTMLElement, store: Store<FailuresState>
   const remedy = element('p');
   const signs = element('ul', { class: 'signs', 'aria-live': 'polite' });
   const command = element('code');
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'The case' },
-      title,
-      lesson,
-      remedy,
-      element('h3', {}, 'What told of it'),
-      signs,
-      element('p', { class: 'note' }, 'With every method, on a command line: ', command),
-    ),
+  addSection(
+    parent,
+    'The case',
+    title,
+    lesson,
+    remedy,
+    element('h3', {}, 'What told of it'),
+    signs,
+    noteLine('With every method, on a command line: ', command),
   );
   watch(store, ['caseId'], ({ caseId }) => {
     const one = caseNamed(caseId);

@@ -3,6 +3,7 @@ import { linearScale } from '../../shared/chart/linear-scale';
 import { pathThrough } from '../../shared/chart/path-through';
 import { element, setText, svg } from '../../shared/panels/element';
 import { lineKey } from '../../shared/panels/line-key';
+import { noteLine } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import type { FilledFrame } from '../bindings/modal-module';
 import { energyOf } from '../state/material';
@@ -148,7 +149,7 @@ export function createCompletionCurves(parent: HTMLElement, store: Store<ModesSt
     lineKey('curve-straight', 'Straight from key to key, the ghost'),
   );
   const story = element('p', { class: 'story' });
-  const halves = element('p', { class: 'note' });
+  const halves = noteLine();
   const table = createCompletionTable();
   const whole = element('div', {}, story, legend, charts.box, halves, table.box);
   parent.append(whole);

@@ -1,6 +1,7 @@
 // How much of a motion the first modes make up together: bars that climb to all of it.
 import { element, setText, svg } from '../../shared/panels/element';
 import { percent } from '../../shared/panels/quantity';
+import { addSection } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import type { ModesState } from '../state/modes-state';
 
@@ -115,13 +116,11 @@ export function createShareChart(parent: HTMLElement, store: Store<ModesState>):
   const words = element('figcaption');
   const figure = element('figure', { class: 'chart' });
   figure.append(root, words);
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'How much is in the first modes' },
-      element('h2', {}, 'How much is in the first modes?'),
-      figure,
-    ),
+  addSection(
+    parent,
+    'How much is in the first modes',
+    element('h2', {}, 'How much is in the first modes?'),
+    figure,
   );
   const keys: (keyof ModesState)[] = ['drapeShares', 'completion', 'model', 'energy'];
   watch(store, keys, (state) => {

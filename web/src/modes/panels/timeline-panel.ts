@@ -1,5 +1,6 @@
 // The timeline: keys on it, the present time, and what makes, changes and removes keys.
 import { button, element, setText } from '../../shared/panels/element';
+import { noteLine } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import { type KeyOrigin, keyTitle } from '../state/key-shapes';
 import { hasUnlinkedKeys } from '../state/modes-link';
@@ -128,7 +129,7 @@ export function createTimelinePanel(
       }),
   });
   const buttons = createButtons(actions);
-  const note = element('p', { class: 'note' });
+  const note = noteLine();
   parent.append(marks, slider, buttons.row, note);
   watch(store, ['keys', 'phase', 'model', 'found'], (state) => {
     buttons.show(state);

@@ -1,5 +1,6 @@
 // Chooses what is painted on the cloth: its material, stretch or distance; and the lines over it.
 import { checkBox, choice, element, field } from '../../shared/panels/element';
+import { addSection } from '../../shared/panels/section';
 import type { HeatMap } from '../../shared/stage/heat-map';
 import { type Store, watch } from '../../shared/state/store';
 import { referenceUrl } from '../run/references';
@@ -25,14 +26,12 @@ export function createDrawingPanel(parent: HTMLElement, store: Store<MotionState
   const rangeField = field('Scale', range.control);
   const edges = checkBox('Edges of the mesh', (isOn) => store.set({ edges: isOn }));
   const springs = checkBox('Springs: explicit or implicit', (isOn) => store.set({ springs: isOn }));
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'Drawing' },
-      element('div', { class: 'pair' }, field('Colour shows', heat.control), rangeField),
-      edges.label,
-      springs.label,
-    ),
+  addSection(
+    parent,
+    'Drawing',
+    element('div', { class: 'pair' }, field('Colour shows', heat.control), rangeField),
+    edges.label,
+    springs.label,
   );
   watch(store, ['heat', 'heatRange', 'edges', 'springs', 'numbers', 'setting'], (state) => {
     const hasReference = referenceUrl(state.setting) !== null;

@@ -1,5 +1,6 @@
 // The demand or the number of vertices, whichever was moved last; and the source of the frames.
 import { checkBox, element, field, setText } from '../../shared/panels/element';
+import { addSection, noteLine } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import { DEMANDS, type Doing, type RefinementState } from '../state/refinement-state';
 import { sourceSentence, vertices } from './garment-words';
@@ -55,7 +56,7 @@ export function createDetailPanel(
     store.set({ useRecords }),
   );
   const fine = checkBox('Fine mesh in step', (computeFine) => store.set({ computeFine }));
-  const source = element('p', { class: 'note' });
+  const source = noteLine();
   const work = element('div');
   const isOwn = ({ share, canCancel }: Doing) => share === null && canCancel;
   createWork(work, store, actions, isOwn);
@@ -67,18 +68,16 @@ export function createDetailPanel(
   };
   demand.addEventListener('told', sayDemand);
   budget.addEventListener('told', sayBudget);
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'How fine' },
-      element('h2', {}, 'How fine'),
-      demandField,
-      budgetField,
-      work,
-      records.label,
-      fine.label,
-      source,
-    ),
+  addSection(
+    parent,
+    'How fine',
+    element('h2', {}, 'How fine'),
+    demandField,
+    budgetField,
+    work,
+    records.label,
+    fine.label,
+    source,
   );
   watch(
     store,

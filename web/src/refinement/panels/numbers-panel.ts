@@ -1,10 +1,12 @@
 // Panel of what the finer meshes cost and buy, in a sentence and in a table.
+
 import { element, setText } from '../../shared/panels/element';
 import { milliseconds, percent, smallLength } from '../../shared/panels/quantity';
+import { addSection, folded, noteLine } from '../../shared/panels/section';
+import { heading, numberCell, rowOf } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
 import { comparedPanes, type PaneId, type RefinementState } from '../state/refinement-state';
 import { levelsSentence, lossSentence, ONE_MORE_LEVEL } from './garment-words';
-import { heading, numberCell } from './table-parts';
 
 function degrees(angle: number | null): string {
   return angle === null ? '–' : `${((180 / Math.PI) * angle).toFixed(1)}°`;
@@ -27,8 +29,7 @@ function costCells(state: RefinementState, part: 'contact' | 'dynamics'): HTMLEl
 function numberTable(state: RefinementState): HTMLElement {
   const { panes, rival, floor } = state;
   const nFine = panes.fine.nVertices;
-  const row = (title: string, cells: HTMLElement[]) =>
-    element('tr', {}, element('th', { scope: 'row' }, title), ...cells);
+  const row = (title: string, cells: HTMLElement[]) => rowOf(title, ...cells);
   const cells = (text: (id: PaneId) => string) =>
     comparedPanes(state).map((id) => numberCell(text(id)));
   /** A distance from fine; in its own column how far a second fine run is. */
@@ -86,22 +87,14 @@ export function createNumbersPanel(parent: HTMLElement, store: Store<RefinementS
   const loss = element('p');
   const { before, link, hash, after } = ONE_MORE_LEVEL;
   const table = element('div');
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'Numbers' },
-      element('h2', {}, 'What it buys'),
-      levels,
-      element('p', { class: 'one-more-level' }, before, element('a', { href: hash }, link), after),
-      loss,
-      element(
-        'details',
-        {},
-        element('summary', {}, 'In numbers'),
-        table,
-        element('p', { class: 'note' }, MEANING),
-      ),
-    ),
+  addSection(
+    parent,
+    'Numbers',
+    element('h2', {}, 'What it buys'),
+    levels,
+    element('p', { class: 'one-more-level' }, before, element('a', { href: hash }, link), after),
+    loss,
+    folded('In numbers', {}, table, noteLine(MEANING)),
   );
   watch(store, ['panes', 'rival', 'floor'], (state) => {
     setText(levels, levelsSentence(state));

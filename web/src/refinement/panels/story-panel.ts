@@ -1,22 +1,22 @@
 // The plan in words and in a small table, and why the face that was asked about is as fine as it is.
+
 import { element, setText } from '../../shared/panels/element';
+import { addSection } from '../../shared/panels/section';
+import { heading, numberCell, rowOf } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
 import { faceAt, faceStory, planStory } from '../state/plan-file';
 import { PANE_TITLES, type RefinementState } from '../state/refinement-state';
 import type { GarmentMesh } from '../worker/garment-protocol';
 import { fromTo, storySentences } from './garment-words';
 import { PATTERN_COLOURS } from './paints';
-import { heading, numberCell } from './table-parts';
 
 /** Pattern, curvature in the example, how many coarse vertices. */
 function patternTable({ plan }: RefinementState): HTMLElement {
   const rows = (plan ? planStory(plan).patterns : []).map((pattern, index) => {
     const key = element('span', { class: 'legend-key' });
     key.style.background = PATTERN_COLOURS[index] ?? '';
-    return element(
-      'tr',
-      {},
-      element('th', { scope: 'row' }, key, String(index)),
+    return rowOf(
+      [key, String(index)],
       numberCell(fromTo(pattern.meansPerM)),
       numberCell(fromTo(pattern.deviationsPerM)),
       numberCell(String(pattern.nVertices)),
@@ -45,16 +45,7 @@ export function createStoryPanel(
   const sentences = element('p');
   const patterns = element('div');
   const face = element('p', { class: 'face-story', 'aria-live': 'polite' });
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'The plan' },
-      element('h2', {}, 'The plan’s story'),
-      sentences,
-      patterns,
-      face,
-    ),
-  );
+  addSection(parent, 'The plan', element('h2', {}, 'The plan’s story'), sentences, patterns, face);
   watch(store, ['plan', 'face', 'phase'], (state) => {
     setText(sentences, state.plan ? storySentences(planStory(state.plan)) : '');
     patterns.replaceChildren(patternTable(state));

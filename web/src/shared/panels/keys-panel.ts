@@ -1,5 +1,6 @@
 // The keys, for those who do not use a pointer.
 import { element } from './element';
+import { addSection, folded, noteLine } from './section';
 
 type Keys = readonly (readonly [string, string])[];
 
@@ -25,12 +26,6 @@ export function createKeyList(parent: HTMLElement, keys: Keys): void {
   for (const [key, meaning] of keys) {
     list.append(element('dt', {}, element('kbd', {}, key)), element('dd', {}, meaning));
   }
-  const box = element(
-    'details',
-    {},
-    element('summary', {}, 'Keys'),
-    element('p', { class: 'note' }, 'They work while the picture has the focus.'),
-    list,
-  );
-  parent.append(element('section', { 'aria-label': 'Keys' }, box));
+  const box = folded('Keys', {}, noteLine('They work while the picture has the focus.'), list);
+  addSection(parent, 'Keys', box);
 }

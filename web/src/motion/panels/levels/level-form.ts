@@ -1,5 +1,6 @@
 // Chooses the coarser level that is drawn over the cloth, and tells what it is.
 import { type Choice, choice, element, field, setText } from '../../../shared/panels/element';
+import { noteLine } from '../../../shared/panels/section';
 import { type Store, watch } from '../../../shared/state/store';
 import { stepperRow } from '../../../shared/steppers/steppers';
 import { LEVEL_MAKERS, levelWish, makerOf } from '../../state/coarse-levels';
@@ -23,8 +24,8 @@ export function createLevelForm(parent: HTMLElement, store: Store<MotionState>):
   );
   const makerField = field('Made as by', makers.control);
   const words = element('p', { class: 'note', 'aria-live': 'polite' });
-  const how = element('p', { class: 'note' });
-  parent.append(shown, words, how, element('p', { class: 'note' }, WHY));
+  const how = noteLine();
+  parent.append(shown, words, how, noteLine(WHY));
 
   let levels: Choice<number> | null = null;
   let nOffered = -1;

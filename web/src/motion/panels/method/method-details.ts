@@ -1,6 +1,7 @@
 // Choices of a method beside its counts, as the core's table tells it.
 import details from 'virtual:pleat-details';
 import { button, choice, element, field } from '../../../shared/panels/element';
+import { folded } from '../../../shared/panels/section';
 import { type Store, watch } from '../../../shared/state/store';
 import { type DetailValue, stepperRow } from '../../../shared/steppers/steppers';
 import type { MotionState } from '../../state/motion-state';
@@ -70,10 +71,9 @@ export function createMethodDetails(parent: HTMLElement, store: Store<MotionStat
     },
     { class: 'wide' },
   );
-  const box = element(
-    'details',
+  const box = folded(
+    'More of this method',
     { class: 'method-details' },
-    element('summary', {}, 'More of this method'),
     ...fields.map((one) => one.box),
     usual,
   );

@@ -1,6 +1,7 @@
 // The choice of a method: model, level, stepper, step, and the counts that the stepper reads.
 import { choice, element, field, setText } from '../../../shared/panels/element';
 import { shortTime, stepTitle } from '../../../shared/panels/quantity';
+import { addSection, folded, noteLine } from '../../../shared/panels/section';
 import { type Store, watch } from '../../../shared/state/store';
 import { canRun, type Model, STEPPERS, stepperRow } from '../../../shared/steppers/steppers';
 import { later } from '../../run/later';
@@ -168,35 +169,28 @@ export function createMethodPanel(
     store.set({ setting: withModel(store.get().setting, chosen) }),
   );
   const level = levelPicker((chosen) => change({ level: chosen }));
-  const meshNote = element('p', { class: 'note' });
+  const meshNote = noteLine();
   const stepper = choice(STEPPER_CHOICES, (chosen) =>
     store.set({ setting: withStepper(store.get().setting, chosen) }),
   );
-  const stepperNote = element('p', { class: 'note' });
+  const stepperNote = noteLine();
   const step = choice(
     STEPS_PER_SECOND.map((count) => ({ value: count, title: `1/${count} s` })),
     (count) => change({ stepS: 1 / count }),
   );
   const counts = countFields(store);
-  const builtNote = element('p', { class: 'note' });
-  const builtBox = element(
-    'details',
-    {},
-    element('summary', {}, 'What this scene needs'),
-    builtNote,
-  );
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'Method' },
-      model.group,
-      level.group,
-      meshNote,
-      field('Stepper', stepper.control, stepperNote),
-      element('div', { class: 'row' }, field('Step', step.control), ...counts.map((c) => c.box)),
-      ...laterTrays(store, run),
-      builtBox,
-    ),
+  const builtNote = noteLine();
+  const builtBox = folded('What this scene needs', {}, builtNote);
+  addSection(
+    parent,
+    'Method',
+    model.group,
+    level.group,
+    meshNote,
+    field('Stepper', stepper.control, stepperNote),
+    element('div', { class: 'row' }, field('Step', step.control), ...counts.map((c) => c.box)),
+    ...laterTrays(store, run),
+    builtBox,
   );
 
   watch(store, ['setting', 'costs'], ({ setting, costs }) => level.show(setting, costs));

@@ -7,6 +7,7 @@ import {
   quantityRows,
   sourceList,
 } from '../../../shared/panels/fabric-quantities';
+import { addSection, folded, noteLine } from '../../../shared/panels/section';
 import { type Store, watch } from '../../../shared/state/store';
 import type { MotionState } from '../../state/motion-state';
 import { ownQuantities } from '../../state/setting';
@@ -20,36 +21,24 @@ export function createFabricPanel(parent: HTMLElement, store: Store<MotionState>
     (fabric) => store.set({ setting: { ...store.get().setting, fabric } }),
   );
   const swatch = element('span', { class: 'swatch', 'aria-hidden': 'true' });
-  const construction = element('p', { class: 'note' });
+  const construction = noteLine();
   const sourceBody = element('div', {}, construction);
   const rows = element('tbody');
-  const sourcesBox = element(
-    'details',
-    {},
-    element('summary', {}, 'Where the numbers come from'),
-    sourceBody,
-  );
+  const sourcesBox = folded('Where the numbers come from', {}, sourceBody);
   const table = element(
     'table',
     { class: 'quantities' },
     element('caption', { class: 'unseen' }, 'Measured numbers of the fabric'),
     rows,
   );
-  const meaningBox = element(
-    'details',
-    {},
-    element('summary', {}, 'What the words mean'),
-    quantityMeanings(),
-  );
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'Fabric' },
-      field('Fabric', names.control, swatch),
-      table,
-      sourcesBox,
-      meaningBox,
-    ),
+  const meaningBox = folded('What the words mean', {}, quantityMeanings());
+  addSection(
+    parent,
+    'Fabric',
+    field('Fabric', names.control, swatch),
+    table,
+    sourcesBox,
+    meaningBox,
   );
   let shown = '';
   watch(store, ['setting'], ({ setting }) => {

@@ -3,6 +3,7 @@ import { element, field, setText } from '../../../shared/panels/element';
 import { createObjPicker } from '../../../shared/panels/obj-picker';
 import { createObjUnit } from '../../../shared/panels/obj-unit';
 import { createReading } from '../../../shared/panels/reading';
+import { noteLine } from '../../../shared/panels/section';
 import { OBJ_UNITS, type ObjUnit } from '../../../shared/state/obj-file';
 import { type Store, watch } from '../../../shared/state/store';
 import type { MotionState } from '../../state/motion-state';
@@ -54,7 +55,7 @@ export function createObjPanel(
     },
   });
   const held = field('Held by', holds);
-  const note = element('p', { class: 'note' });
+  const note = noteLine();
   const box = element('div', { class: 'mesh' });
   createObjPicker(box, { openObj: (file) => actions.open(file) });
   const unit = createObjUnit((value) => actions.setUnit(value));

@@ -1,5 +1,6 @@
 // Choice of the scene, and the visitor's mesh or the form of a knit.
-import { choice, element, field } from '../../../shared/panels/element';
+import { choice, field } from '../../../shared/panels/element';
+import { addSection } from '../../../shared/panels/section';
 import { type Store, watch } from '../../../shared/state/store';
 import { later } from '../../run/later';
 import { AT_START, type MotionState } from '../../state/motion-state';
@@ -15,8 +16,7 @@ export function createScenePanel(
     PRESET_IDS.map((value) => ({ value, title: PRESETS[value].title })),
     (preset) => store.set({ ...AT_START, setting: presetSetting(preset) }),
   );
-  const section = element('section', { 'aria-label': 'Scene' }, field('Scene', presets.control));
-  parent.append(section);
+  const section = addSection(parent, 'Scene', field('Scene', presets.control));
   const makeObjPanel = later(store, 'The panel of your OBJ', async () => {
     const { createObjPanel } = await import('./obj-panel');
     createObjPanel(section, store, actions);

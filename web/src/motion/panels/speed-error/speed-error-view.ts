@@ -1,6 +1,7 @@
 // The sweep's chart with its table beside it; a chosen point is run to the time that its error is of.
 import './speed-error.css';
 import { button, element, setText } from '../../../shared/panels/element';
+import { noteLine } from '../../../shared/panels/section';
 import { type Store, watch } from '../../../shared/state/store';
 import { STEPPERS } from '../../../shared/steppers/steppers';
 import type { BenchRow } from '../../bindings/sweep-module';
@@ -95,11 +96,11 @@ export function createSpeedErrorView(
   }
 
   const heading = element('h2');
-  const beside = element('p', { class: 'note' });
+  const beside = noteLine();
   const close = button('Close', () => store.set({ sweepOpen: false }));
   const figure = element('figure', { class: 'chart' });
   const plot = createSpeedErrorPlot(figure, use);
-  const note = element('p', { class: 'note' });
+  const note = noteLine();
   const legend = createLegend();
   figure.append(legend.list);
   const table = createSpeedErrorTable(use);
