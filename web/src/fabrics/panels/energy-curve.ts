@@ -6,6 +6,7 @@ import { pathThrough } from '../../shared/chart/path-through';
 import { element, setText, svg } from '../../shared/panels/element';
 import { lineKey } from '../../shared/panels/line-key';
 import { createNumberTable, fillHead } from '../../shared/panels/number-table';
+import { createPlot, levelMarks, plotText, uprightTitle } from '../../shared/panels/plot-parts';
 import { digits } from '../../shared/panels/quantity';
 import { addSection, folded, noteLine } from '../../shared/panels/section';
 import { numberCell, rowOf } from '../../shared/panels/table-parts';
@@ -97,28 +98,15 @@ function draw(root: SVGElement, steps: Steps): void {
   const parts: SVGElement[] = [];
   for (const tick of ticks) {
     const at = y(tick) ?? HEIGHT - BOTTOM;
-    parts.push(
-      svg('line', { x1: LEFT, y1: at, x2: WIDTH - RIGHT, y2: at, class: 'grid-minor' }),
-      svg('text', { x: LEFT - 6, y: at + 4, class: 'tick tick-y' }, digits(tick, 2)),
-    );
+    parts.push(...levelMarks([LEFT, WIDTH - RIGHT], at, digits(tick, 2), 6));
   }
   const stride = Math.max(1, Math.ceil(steps.length / MOST_LABELS));
   for (let index = 0; index < steps.length; index += stride) {
-    parts.push(
-      svg(
-        'text',
-        { x: xOf(index), y: HEIGHT - BOTTOM + 16, class: 'tick tick-x' },
-        String(index + 1),
-      ),
-    );
+    parts.push(plotText('tick tick-x', xOf(index), HEIGHT - BOTTOM + 16, String(index + 1)));
   }
   parts.push(
-    svg('text', { x: LEFT + width / 2, y: HEIGHT - 6, class: 'axis' }, 'step'),
-    svg(
-      'text',
-      { x: 12, y: HEIGHT / 2, class: 'axis', transform: `rotate(-90 12 ${HEIGHT / 2})` },
-      'energy',
-    ),
+    plotText('axis', LEFT + width / 2, HEIGHT - 6, 'step'),
+    uprightTitle(12, HEIGHT / 2, 'energy'),
   );
   function curve(kind: string, energyOf: (step: Steps[number]) => number): void {
     const points = steps.map((step, index): [number, number] | null => {
@@ -155,11 +143,7 @@ function tableRow(step: Steps[number], index: number): HTMLElement {
 
 /** The curve of the chosen pane. */
 export function createEnergyCurve(parent: HTMLElement, store: Store<DeformState>): void {
-  const root = svg('svg', {
-    viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
-    class: 'plot energy-plot',
-    'aria-hidden': 'true',
-  });
+  const root = createPlot(WIDTH, HEIGHT, 'energy-plot');
   const words = element('figcaption');
   const legend = element(
     'ul',

@@ -3,6 +3,7 @@ import { linearScale } from '../../shared/chart/linear-scale';
 import { pathThrough } from '../../shared/chart/path-through';
 import { element, setText, svg } from '../../shared/panels/element';
 import { lineKey } from '../../shared/panels/line-key';
+import { createPlot, levelMarks, plotText } from '../../shared/panels/plot-parts';
 import { noteLine } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import type { FilledFrame } from '../bindings/modal-module';
@@ -84,24 +85,15 @@ function draw(curve: Curve, frames: readonly FilledFrame[]): Drawn {
   const end = frames.at(-1)?.time ?? 1;
   const x = (time: number) => LEFT + (time / end) * (WIDTH - LEFT - RIGHT);
   const y = (value: number) => HEIGHT - BOTTOM - axis.part(value) * (HEIGHT - TOP - BOTTOM);
-  const root = svg('svg', {
-    viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
-    class: 'plot',
-    'aria-hidden': 'true',
-  });
+  const root = createPlot(WIDTH, HEIGHT);
   for (const tick of axis.ticks)
     root.append(
-      svg('line', { x1: LEFT, y1: y(tick), x2: WIDTH - RIGHT, y2: y(tick), class: 'grid-minor' }),
-      svg(
-        'text',
-        { x: LEFT - 5, y: y(tick) + 4, class: 'tick tick-y' },
-        String(Number(tick.toPrecision(3))),
-      ),
+      ...levelMarks([LEFT, WIDTH - RIGHT], y(tick), String(Number(tick.toPrecision(3))), 5),
     );
   for (let key = 0; key <= end; ++key)
     root.append(
       svg('line', { x1: x(key), y1: TOP, x2: x(key), y2: HEIGHT - BOTTOM, class: 'grid-minor' }),
-      svg('text', { x: x(key), y: HEIGHT - BOTTOM + 15, class: 'tick tick-x' }, String(key + 1)),
+      plotText('tick tick-x', x(key), HEIGHT - BOTTOM + 15, String(key + 1)),
     );
   const points = (values: readonly number[]) =>
     values.map((value, index) => [x(frames[index]?.time ?? 0), y(value)] as const);
@@ -110,7 +102,7 @@ function draw(curve: Curve, frames: readonly FilledFrame[]): Drawn {
     svg('path', { d: pathThrough(points(straight)), class: 'curve-straight' }),
     svg('path', { d: pathThrough(points(ours)), class: 'curve-ours' }),
     now,
-    svg('text', { x: LEFT + (WIDTH - LEFT) / 2, y: HEIGHT - 3, class: 'axis' }, 'key'),
+    plotText('axis', LEFT + (WIDTH - LEFT) / 2, HEIGHT - 3, 'key'),
   );
   return { root, now, x };
 }
