@@ -118,9 +118,7 @@ export function encodeFabricsLink(state: FabricsState): string {
 /** The state a link stands for; `problems` says in words what could not be read. */
 export function decodeFabricsLink(hash: string): { link: FabricsLink; problems: string[] } {
   // A plus is a plus here, not a space.
-  const text = hash.replace(/^#/, '').replaceAll('+', '%2B');
-  const { take, finish } = createLinkReader(new URLSearchParams(text));
-  take('view', 'fabrics', 'fabrics', oneOf(['fabrics']));
+  const { take, takeSwitch, finish } = createLinkReader(hash.replaceAll('+', '%2B'), 'fabrics');
   const ids = EXPERIMENTS.map(({ id }) => id);
   const first = ids[0] ?? OWN;
   const experiment = take('scene', first, `${ids.join(', ')} (a link carries no OBJ)`, oneOf(ids));
@@ -138,7 +136,7 @@ export function decodeFabricsLink(hash: string): { link: FabricsLink; problems: 
       return n > 0 && n <= MOST_COMPARED && n === choices?.length ? choices : undefined;
     },
   );
-  const gallery = take('gallery', 'off', 'on or off', oneOf(['on', 'off'])) === 'on';
+  const gallery = takeSwitch('gallery');
   const order = take<FabricOrder>('order', 'source', ORDERS.join(', '), oneOf(ORDERS));
   const form = take<DeformState['form']>(
     'form',
@@ -159,7 +157,7 @@ export function decodeFabricsLink(hash: string): { link: FabricsLink; problems: 
   const nPanes = gallery ? fabrics.length : compared.length;
   const panes = Array.from({ length: nPanes }, (_, pane) => pane);
   const chosen = take('chosen', 0, `0 to ${nPanes - 1}`, oneOf(panes));
-  const edges = take('edges', 'off', 'on or off', oneOf(['on', 'off'])) === 'on';
+  const edges = takeSwitch('edges');
   const moved = take<LinkedHold[]>('held', [], 'names or vertices with moves', (list) => {
     const known = allOf(list, ';', holdIn);
     return known && known.length <= MOST_HOLDS ? known : undefined;
