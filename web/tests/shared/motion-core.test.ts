@@ -10,7 +10,7 @@ import {
   withModel,
   withStepper,
 } from '../../src/motion/state/setting';
-import { settingOfRow, sweepPlan } from '../../src/motion/state/sweep-plan';
+import { settingOf, sweepPlan } from '../../src/motion/state/sweep-plan';
 import { readObj } from '../../src/motion/worker/obj-core';
 import type { ObjReadMessage } from '../../src/motion/worker/obj-protocol';
 import { SweepCore } from '../../src/motion/worker/sweep-core';
@@ -388,7 +388,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
       expect(row.reference.converged).toBe(true);
       expect(row.ms_per_frame).toBeGreaterThan(0);
       expect(row.position_error_m).toBeGreaterThan(0);
-      expect(settingOfRow(row, setting).stepper).toBe(row.method.stepper);
+      expect(settingOf(row, setting).stepper).toBe(row.method.stepper);
       if (_name !== 'the stand-in') expect(row.commit).toMatch(/\S/);
     }
   });
@@ -538,7 +538,7 @@ describe('motion-core with a module that lacks CHOLMOD', () => {
     ]);
     posted.length = 0;
     for (const row of rows) {
-      const text = JSON.stringify(sceneOf(settingOfRow(row, setting)));
+      const text = JSON.stringify(sceneOf(settingOf(row, setting)));
       send({ type: 'load', sceneText: text, keepMotion: false });
       take('loaded');
     }

@@ -43,12 +43,7 @@ export function isUsual({ garment, further, rule, demand, budget }: Wish): boole
 /** Hears how much of an example has run. */
 export type Progress = (motion: MotionId, share: number) => void;
 
-export interface Planner {
-  /** Rejects when an example cannot be had. */
-  plan(wish: Wish, progress?: Progress): Promise<PlanFile>;
-  /** Gives up what is being planned; the next plan starts anew. */
-  cancel(): void;
-}
+export type Planner = Pick<ExamplePlanner, 'plan' | 'cancel'>;
 
 /** The examples that the worker has, or is getting. */
 interface Opened extends Pick<Wish, 'garment' | 'fabric'> {
@@ -96,17 +91,18 @@ async function openExample(to: ExampleClient, garment: GarmentId, fetchBytes: Fe
   );
 }
 
-class ExamplePlanner implements Planner {
+export class ExamplePlanner {
   private client: ExampleClient | null = null;
   private opened: Opened | null = null;
   private progress: Progress = () => undefined;
 
   constructor(
-    private readonly start: () => ExampleClient,
-    private readonly fetchBytes: FetchBytes,
-    private readonly seen: Seen,
+    private readonly start: () => ExampleClient = startExampleWorker,
+    private readonly fetchBytes: FetchBytes = fetchedBytes,
+    private readonly seen: Seen = { fromS: SETTLED_S, toS: SETTLED_S + SEEN_S },
   ) {}
 
+  /** Rejects when an example cannot be had. */
   async plan(wish: Wish, progress: Progress = () => undefined): Promise<PlanFile> {
     const { garment, rule, demand, budget } = wish;
     this.progress = progress;
@@ -123,6 +119,7 @@ class ExamplePlanner implements Planner {
     return (await client.ask({ type: 'plan', wish: asked })).plan;
   }
 
+  /** Gives up what is being planned; the next plan starts anew. */
   cancel(): void {
     this.client?.terminate();
     this.client = null;
@@ -180,16 +177,4 @@ class ExamplePlanner implements Planner {
       share = (await client.ask({ type: 'goOn' })).share;
     }
   }
-}
-
-export function createPlanner(
-  start = startExampleWorker,
-  fetchBytes: FetchBytes = fetchedBytes,
-  seen: Seen = { fromS: SETTLED_S, toS: SETTLED_S + SEEN_S },
-): Planner {
-  const planner = new ExamplePlanner(start, fetchBytes, seen);
-  return {
-    plan: (wish, progress) => planner.plan(wish, progress),
-    cancel: () => planner.cancel(),
-  };
 }

@@ -22,7 +22,7 @@ import {
 } from '../state/refinement-state';
 import { startGarmentWorker } from './garment-client';
 import { type PaneParts, PaneSet, type TrioView } from './pane-set';
-import { createPlanner, fetchedBytes, type Planner } from './planner';
+import { ExamplePlanner, fetchedBytes, type Planner } from './planner';
 
 /** The parts of the browser that a trio needs: tests have their own. */
 export interface TrioParts extends PaneParts, Display {
@@ -39,7 +39,7 @@ const BROWSER: TrioParts = {
   ...DISPLAY,
   start: startGarmentWorker,
   fetchBytes: fetchedBytes,
-  planner: createPlanner(),
+  planner: new ExamplePlanner(),
 };
 
 function failureOf(error: unknown): Failure {

@@ -8,7 +8,7 @@ import type { BenchRow } from '../../bindings/sweep-module';
 import type { MotionRun } from '../../run/motion-run';
 import type { MotionState } from '../../state/motion-state';
 import { PRESETS } from '../../state/setting';
-import { durationS, hasFinished, settingOfRow } from '../../state/sweep-plan';
+import { durationS, hasFinished, settingOf } from '../../state/sweep-plan';
 import { rowOfSetting, type SweepState } from '../../state/sweep-state';
 import { legendItem, markOf } from '../chart/stepper-mark';
 import { errorSentence, headline, methodSentence } from './mesh-words';
@@ -89,7 +89,7 @@ export function createSpeedErrorView(
     const row = sweep.rows[index];
     if (!row || !sweep.scene) return;
     const { mesh, ...swept } = sweep.scene;
-    const measured = settingOfRow(row, { ...setting, ...swept });
+    const measured = settingOf(row, { ...setting, ...swept });
     const startSteps = Math.round(durationS(measured) / measured.stepS);
     const content = { setting: measured, startSteps, invited: false };
     actions.showAnew(mesh ? { ...content, mesh } : content);
