@@ -147,7 +147,7 @@ export function createEnergyCurve(parent: HTMLElement, store: Store<DeformState>
   const words = element('figcaption');
   const legend = element(
     'ul',
-    { class: 'marks curve-keys' },
+    { class: 'marks line-keys' },
     lineKey('curve whole', 'Whole'),
     ...TERMS.map((term) => lineKey(`curve term-${term}`, TERM_TITLES[term])),
   );

@@ -165,7 +165,7 @@ export function createFabricCard(
   store: Store<DeformState>,
   { setWeightsFrom }: CardActions,
 ): void {
-  const swatch = element('span', { class: 'fabric-swatch', 'aria-hidden': 'true' });
+  const swatch = element('span', { class: 'swatch', 'aria-hidden': 'true' });
   const name = element('h2', {});
   const use = element('span', { class: 'note' });
   const expectation = element('p', { class: 'caption' });

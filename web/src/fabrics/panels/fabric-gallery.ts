@@ -85,7 +85,7 @@ export function cellAfter(key: string, { row, column }: Cell, nRows: number): Ce
 
 function createRow({ id, name_en: name }: FabricRecord, press: () => void, toggle: () => void) {
   const { front, back } = lookOf(id);
-  const swatch = element('span', { class: 'fabric-swatch', 'aria-hidden': 'true' });
+  const swatch = element('span', { class: 'swatch', 'aria-hidden': 'true' });
   swatch.style.background = `linear-gradient(135deg, ${front} 50%, ${back} 50%)`;
   const { bar, show: showWeights } = createWeightBar();
   const words = element('span', { class: 'unseen' });

@@ -136,7 +136,7 @@ export function createCompletionCurves(parent: HTMLElement, store: Store<ModesSt
   const charts = createCharts();
   const legend = element(
     'ul',
-    { class: 'marks curve-keys' },
+    { class: 'marks line-keys' },
     lineKey('curve-ours', 'In-betweens'),
     lineKey('curve-straight', 'Straight from key to key, the ghost'),
   );

@@ -59,7 +59,7 @@ function energyChart(samples: readonly EnergyNumbers[], lines: readonly EnergyLi
 
 export function createEnergyChart(parent: HTMLElement, store: Store<MotionState>): void {
   const plot = createTimePlot('energy-over-time');
-  const legend = element('ul', { class: 'marks energy-keys' });
+  const legend = element('ul', { class: 'marks line-keys' });
   const words = element('figcaption');
   const table = createNumberTable('Energies over time', 'Energies over time', 'energy-rows');
   const asTable = folded('The same as a table', { toggle: () => render(store.get()) }, table.box);
