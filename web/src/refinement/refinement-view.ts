@@ -28,7 +28,7 @@ import { createStoryPanel } from './panels/story-panel';
 import { createWork } from './panels/work';
 import type { ShownFrame } from './run/pane-set';
 import { Trio } from './run/trio';
-import { createGarmentStage, type GarmentStage } from './stage/garment-stage';
+import { GarmentStage } from './stage/garment-stage';
 import { decodeRefinementLink, encodeRefinementLink } from './state/refinement-link';
 import {
   comparedPanes,
@@ -76,14 +76,17 @@ class Picture {
   /** Opens the stage where the browser can draw it. */
   open(box: HTMLElement, canvas: HTMLCanvasElement, key: (name: string) => boolean): void {
     const { store } = this;
-    this.stage = openStage(canvas, store, (pictureLost) =>
-      createGarmentStage(box, canvas, {
-        press(pane, face) {
-          if (PANES[pane] === 'planned') store.set({ face });
-        },
-        key,
-        pictureLost,
-      }),
+    this.stage = openStage(
+      canvas,
+      store,
+      (pictureLost) =>
+        new GarmentStage(box, canvas, {
+          press(pane, face) {
+            if (PANES[pane] === 'planned') store.set({ face });
+          },
+          key,
+          pictureLost,
+        }),
     );
     // Somebody stands there until the clothes have come.
     this.stage?.setSolids(firstBody as SolidsAnswer);
