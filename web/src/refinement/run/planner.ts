@@ -1,7 +1,7 @@
 // Plans for a garment: the usual one comes with the page, others are made of the recorded example and of
 // motions that are run here.
 import { fabricsText } from '../../shared/fabric/fabric-data';
-import { fetched } from '../../shared/page/fetched';
+import { fetchedBytes } from '../../shared/page/fetched';
 import {
   FINE_LEVEL,
   FRAME_S,
@@ -21,14 +21,10 @@ import {
 } from '../state/garments';
 import type { PlanFile } from '../state/plan-file';
 import type { RefinementState } from '../state/refinement-state';
-import type { PlanWish } from '../worker/garment-protocol';
+import type { ExampleScene, PlanWish } from '../worker/garment-protocol';
 import { type ExampleClient, startExampleWorker } from './garment-client';
 import { exampleUrls } from './records';
 import { type FetchBytes, sceneFiles } from './scene-files';
-
-export async function fetchedBytes(url: string): Promise<ArrayBuffer> {
-  return (await fetched(url)).arrayBuffer();
-}
 
 export type Wish = Pick<
   RefinementState,
@@ -66,29 +62,30 @@ interface Seen {
   toS: number;
 }
 
+async function exampleScene(
+  garment: GarmentId,
+  motion: MotionId,
+  fabric: string,
+  fetchBytes: FetchBytes,
+): Promise<ExampleScene> {
+  return {
+    fabricsText,
+    sceneText: sceneText(garment, motion, fabric, { level: FINE_LEVEL }),
+    files: await sceneFiles(garment, fetchBytes),
+    name: exampleName(garment, motion, fabric),
+    nPatterns: PATTERNS,
+  };
+}
+
 async function openExample(to: ExampleClient, garment: GarmentId, fetchBytes: FetchBytes) {
   const urls = exampleUrls(garment);
   if (!urls) throw new Error('no example of this garment comes with the page');
-  const [features, frames, files] = await Promise.all([
+  const [features, frames, scene] = await Promise.all([
     fetchBytes(urls.features),
     fetchBytes(urls.frames),
-    sceneFiles(garment, fetchBytes),
+    exampleScene(garment, MOTIONS[0].value, usualFabric(garment), fetchBytes),
   ]);
-  const { value: motion } = MOTIONS[0];
-  const fabric = usualFabric(garment);
-  await to.ask(
-    {
-      type: 'open',
-      fabricsText,
-      sceneText: sceneText(garment, motion, fabric, { level: FINE_LEVEL }),
-      files,
-      name: exampleName(garment, motion, fabric),
-      nPatterns: PATTERNS,
-      features,
-      frames,
-    },
-    [features, frames],
-  );
+  await to.ask({ type: 'open', ...scene, features, frames }, [features, frames]);
 }
 
 export class ExamplePlanner {
@@ -163,11 +160,7 @@ export class ExamplePlanner {
     this.progress(motion, 0);
     let { share } = await client.ask({
       type: 'begin',
-      fabricsText,
-      sceneText: sceneText(garment, motion, fabric, { level: FINE_LEVEL }),
-      files: await sceneFiles(garment, this.fetchBytes),
-      name: exampleName(garment, motion, fabric),
-      nPatterns: PATTERNS,
+      ...(await exampleScene(garment, motion, fabric, this.fetchBytes)),
       frameS: FRAME_S,
       ...this.seen,
       keptOf: KEPT_OF,
