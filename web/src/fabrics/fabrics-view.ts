@@ -274,11 +274,10 @@ export function createFabricsView(root: HTMLElement, hash: string, actions: Fabr
   createAnnouncer(messages, store, fabricsSentence);
   createTools(toolBox, store, deformer, () => picture.stage?.homeView(), actions);
   createPanels(panel, store, deformer, picture);
-  createDropTarget(document.body, {
-    openObj(file) {
-      if (isShown) void deformer.openObj(file);
-    },
-  });
+  createDropTarget(
+    () => isShown,
+    (file) => void deformer.openObj(file),
+  );
   deformer.openExperiment(first.link.experiment, first.link);
 
   const link = () => `#${encodeFabricsLink(store.get())}`;

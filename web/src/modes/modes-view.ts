@@ -140,11 +140,10 @@ export function createModesView(root: HTMLElement, hash: string): View {
   });
   createTimeline(timeline, store, run, hands);
   createPanels(panel, store, run, hands);
-  createDropTarget(document.body, {
-    openObj(file) {
-      if (isShown) void run.openObj(file);
-    },
-  });
+  createDropTarget(
+    () => isShown,
+    (file) => void run.openObj(file),
+  );
   run.openModel(first.link.model, first.link);
 
   const link = () => `#${encodeModesLink(store.get())}`;

@@ -13,9 +13,10 @@ import {
 import { TERMS, type Term } from '../../src/fabrics/state/deform-state';
 import { EXPERIMENTS } from '../../src/fabrics/state/experiments';
 import { geometryOf, perTerm } from '../../src/fabrics/state/fabric-geometry';
-import { holdsOf, joined, placeOf } from '../../src/fabrics/state/holds';
+import { holdsOf, joined } from '../../src/fabrics/state/holds';
 import type { Triple as Place } from '../../src/shared/bindings/geometry';
 import { fabricNamed, fabrics, fabricsText } from '../../src/shared/fabric/fabric-data';
+import { placeOf } from '../../src/shared/state/vectors';
 import { loadModule } from '../support/built-module';
 
 const FILES = fileURLToPath(new URL('../../../assets/deform', import.meta.url));

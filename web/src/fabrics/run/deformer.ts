@@ -1,5 +1,6 @@
 // Finds the shapes that the view of fabrics shows: turns changes of the state and of the hand into
 // questions to the worker, and answers into state and frames.
+
 import { describe, type Failure, inputFailure } from '../../shared/bindings/answers';
 import { frameViews } from '../../shared/bindings/frame';
 import type { Triple } from '../../shared/bindings/geometry';
@@ -17,6 +18,7 @@ import {
   textInMetres,
 } from '../../shared/state/obj-file';
 import type { Store } from '../../shared/state/store';
+import { placeOf } from '../../shared/state/vectors';
 import { answerOf } from '../../shared/workers/asked';
 import type { TermNumbers } from '../bindings/deform-module';
 import type { PaneState } from '../state/deform-state';
@@ -32,7 +34,7 @@ import {
   panesFor,
   settlingPanes,
 } from '../state/fabrics-state';
-import { holdsOf, placeOf } from '../state/holds';
+import { holdsOf } from '../state/holds';
 import type {
   DeformFrame,
   FittedMessage,

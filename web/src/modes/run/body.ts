@@ -1,9 +1,11 @@
 // The body that is shown: what the worker found of it, and the shapes that its keys and mixes stand for.
+
 import type { Triple } from '../../shared/bindings/geometry';
+import { extentOf } from '../../shared/state/vectors';
 import type { Energy, FilledFrame } from '../bindings/modal-module';
 import { bent, type KeyOrigin, type KeyShape } from '../state/key-shapes';
 import type { ModeNumbers } from '../state/material';
-import { extentOf, mixInto, REACH } from '../state/mix';
+import { mixInto, REACH } from '../state/mix';
 import { pulledMix, timeNearest } from '../state/pull';
 import { shapeAt, straightAt } from '../state/timeline';
 import type { CompletedMessage, OpenedMessage } from '../worker/modal-protocol';

@@ -4,10 +4,9 @@ function hasFile(event: DragEvent): boolean {
   return event.dataTransfer?.types.includes('Files') ?? false;
 }
 
-export function createDropTarget(
-  target: HTMLElement,
-  actions: { openObj(file: File): void },
-): void {
+/** Takes files while the view is shown. */
+export function createDropTarget(isShown: () => boolean, open: (file: File) => void): void {
+  const target = document.body;
   const show = (isDropping: boolean) => target.classList.toggle('dropping', isDropping);
   target.addEventListener('dragover', (event) => {
     if (!hasFile(event)) return;
@@ -20,6 +19,6 @@ export function createDropTarget(
     event.preventDefault();
     show(false);
     const [file] = event.dataTransfer?.files ?? [];
-    if (file) actions.openObj(file);
+    if (file && isShown()) open(file);
   });
 }
