@@ -11,7 +11,7 @@ import {
 } from '../../shared/panels/fabric-quantities';
 import { digits, percent } from '../../shared/panels/quantity';
 import { folded, noteLine } from '../../shared/panels/section';
-import { numberCell } from '../../shared/panels/table-parts';
+import { heading, numberCell, rowOf, tableOf } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
 import type { FitAnswer, TermNumbers } from '../bindings/deform-module';
 import { type DeformState, TERMS } from '../state/deform-state';
@@ -50,28 +50,13 @@ export function stiffnessSentence(fabric: FabricRecord): string {
   return `In forces, its bending rigidity is ${quantityText(fabric, key)} (${fabric[key].confidence}): number ${rankOf(fabric, key)} of ${fabrics.length} from the stiffest.`;
 }
 
-function headings(...titles: string[]): HTMLElement {
-  const cells = titles.map((title, column) =>
-    element('th', { scope: 'col', class: column > 0 ? 'number' : '' }, title),
-  );
-  return element('thead', {}, element('tr', {}, ...cells));
-}
-
 function weightRows({ weights, published }: Shown): HTMLElement[] {
   return TERMS.map((term) => {
     const printed = published ? misprint(weights[term], published[term]) : null;
     const exact =
       printed === null ? percent(weights[term]) : `${(100 * weights[term]).toFixed(3)} %`;
-    return element(
-      'tr',
-      {},
-      element(
-        'th',
-        { scope: 'row' },
-        termKey(term),
-        TERM_TITLES[term],
-        element('small', {}, `avoids ${TERM_COSTS[term]}`),
-      ),
+    return rowOf(
+      [termKey(term), TERM_TITLES[term], element('small', {}, `avoids ${TERM_COSTS[term]}`)],
       numberCell(exact),
       numberCell(published ? (printed ?? 'same') : '–'),
     );
@@ -80,41 +65,17 @@ function weightRows({ weights, published }: Shown): HTMLElement[] {
 
 function measureRows({ measures, normalised }: Shown): HTMLElement[] {
   return TERMS.map((term) =>
-    element(
-      'tr',
-      {},
-      element(
-        'th',
-        { scope: 'row' },
-        TERM_TITLES[term],
-        element('small', {}, TERM_MEASUREMENTS[term]),
-      ),
+    rowOf(
+      [TERM_TITLES[term], element('small', {}, TERM_MEASUREMENTS[term])],
       numberCell(measures[term].toFixed(4)),
       numberCell(digits(normalised[term], 2)),
     ),
   );
 }
 
-function details(summary: string, ...content: Node[]): HTMLElement {
-  return folded(summary, {}, ...content);
-}
-
-function table(kind: string, caption: string, ...content: HTMLElement[]): HTMLElement {
-  return element(
-    'table',
-    { class: kind },
-    element('caption', { class: 'unseen' }, caption),
-    ...content,
-  );
-}
-
 function termTable(caption: string, titles: string[], rows: HTMLElement[]): HTMLElement {
-  return table(
-    'quantities term-table',
-    caption,
-    headings(...titles),
-    element('tbody', {}, ...rows),
-  );
+  const body = element('tbody', {}, ...rows);
+  return tableOf('quantities term-table', caption, heading(...titles), body);
 }
 
 function weightTable(shown: Shown): HTMLElement {
@@ -125,8 +86,9 @@ const WEIGHTS_NOTE =
   'Weights are shares: they tell what this fabric trades for what, and not how stiff it is beside another.';
 
 function measurementBox(shown: Shown): HTMLElement {
-  return details(
+  return folded(
     'What was measured',
+    {},
     termTable('Geometric measurements', ['Test', 'Ratio', 'Normalised'], measureRows(shown)),
     noteLine(
       'The weights are the shares of the normalised values. How these follow from the ratios is not printed: presumably from the spread of the twenty tests of each fabric.',
@@ -136,18 +98,16 @@ function measurementBox(shown: Shown): HTMLElement {
 }
 
 function physicalBox(fabric: FabricRecord): HTMLElement {
-  return details(
+  const body = element('tbody', {}, ...quantityRows(fabric));
+  return folded(
     'Physical numbers',
+    {},
     noteLine(
       `For the fabric in motion; the shape here does not use them. Taken as: ${fabric.assumed_construction}.`,
     ),
-    table(
-      'quantities',
-      'Physical numbers of the fabric',
-      element('tbody', {}, ...quantityRows(fabric)),
-    ),
-    details('Where the numbers come from', sourceList(fabric)),
-    details('What the words mean', quantityMeanings()),
+    tableOf('quantities', 'Physical numbers of the fabric', body),
+    folded('Where the numbers come from', {}, sourceList(fabric)),
+    folded('What the words mean', {}, quantityMeanings()),
   );
 }
 

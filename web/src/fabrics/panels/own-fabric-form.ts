@@ -4,7 +4,7 @@ import { fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
 import { button, element, field, setText } from '../../shared/panels/element';
 import { digits, percent } from '../../shared/panels/quantity';
 import { addSection, folded, noteLine } from '../../shared/panels/section';
-import { numberCell, rowOf } from '../../shared/panels/table-parts';
+import { heading, numberCell, rowOf, tableOf } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
 import type { FitAnswer, TermNumbers } from '../bindings/deform-module';
 import { type DeformState, TERMS, type Term } from '../state/deform-state';
@@ -98,11 +98,6 @@ function measureField(term: Term, onInput: () => void) {
   };
 }
 
-/** A table's head cell. */
-function headCell(title: string, kind = ''): HTMLElement {
-  return element('th', kind === '' ? { scope: 'col' } : { scope: 'col', class: kind }, title);
-}
-
 /** Weights that the measured fabrics suggest for the measures, and how far they are to be trusted. */
 function createResult(showIt: () => void) {
   const { bar, show: showWeights } = createWeightBar();
@@ -110,14 +105,8 @@ function createResult(showIt: () => void) {
   const clamped = element('p', { class: 'field-error' });
   const trust = element('ul', { class: 'plain-list note' });
   const rows = element('tbody');
-  const heads = [headCell('Term'), headCell('Normalised', 'number'), headCell('Weight', 'number')];
-  const table = element(
-    'table',
-    { class: 'quantities' },
-    element('caption', { class: 'unseen' }, 'Weights of your fabric'),
-    element('thead', {}, element('tr', {}, ...heads)),
-    rows,
-  );
+  const heads = heading('Term', 'Normalised', 'Weight');
+  const table = tableOf('quantities', 'Weights of your fabric', heads, rows);
   const note = `A guess from ${fabrics.length} fabrics, whose measurements hardly tell their weights. Leaving each measured fabric out in turn, the curve through the others misses its normalised value (0 to 1):`;
   const trustBox = folded('How far to trust it', {}, noteLine(note), trust);
   const showing = button('Show it', showIt, { class: 'wide' });

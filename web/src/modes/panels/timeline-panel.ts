@@ -1,5 +1,7 @@
 // The timeline: keys on it, the present time, and what makes, changes and removes keys.
+
 import { button, element, setText } from '../../shared/panels/element';
+import { filePicker } from '../../shared/panels/obj-picker';
 import { noteLine } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import { type KeyOrigin, keyTitle } from '../state/key-shapes';
@@ -24,23 +26,8 @@ function exampleTitle(model: string): string {
   return model === 'bar' || model === 'sheet' ? 'Bent by 180°' : 'First keys';
 }
 
-function createFilePicker(openFiles: (files: readonly File[]) => void) {
-  const picker = element('input', {
-    type: 'file',
-    accept: '.obj',
-    multiple: true,
-    hidden: true,
-    'aria-label': 'OBJ files of keys',
-    change() {
-      openFiles([...(picker.files ?? [])]);
-      picker.value = ''; // choosing the same file, mended, is a change again
-    },
-  });
-  return picker;
-}
-
 function createButtons(actions: TimelineActions) {
-  const picker = createFilePicker(actions.openFiles);
+  const picker = filePicker('OBJ files of keys', actions.openFiles, true);
   const keep = button('Keep as key', actions.keep, {
     title: 'The mix of modes becomes the next key',
   });

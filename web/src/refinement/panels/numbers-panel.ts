@@ -3,7 +3,7 @@
 import { element, setText } from '../../shared/panels/element';
 import { milliseconds, percent, smallLength } from '../../shared/panels/quantity';
 import { addSection, folded, noteLine } from '../../shared/panels/section';
-import { heading, numberCell, rowOf } from '../../shared/panels/table-parts';
+import { heading, numberCell, rowOf, tableOf } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
 import { comparedPanes, type PaneId, type RefinementState } from '../state/refinement-state';
 import { levelsSentence, lossSentence, ONE_MORE_LEVEL } from './garment-words';
@@ -35,10 +35,9 @@ function numberTable(state: RefinementState): HTMLElement {
   /** A distance from fine; in its own column how far a second fine run is. */
   const held = (key: 'foldsM' | 'surfaceM') =>
     cells((id) => smallLength(id === 'fine' ? (floor?.[key] ?? null) : panes[id][key]));
-  return element(
-    'table',
-    { class: 'quantities number-table' },
-    element('caption', { class: 'unseen' }, 'Three meshes in numbers'),
+  return tableOf(
+    'quantities number-table',
+    'Three meshes in numbers',
     heading('', rival, 'multi', 'fine'),
     element(
       'tbody',

@@ -2,7 +2,7 @@
 
 import { element, setText } from '../../shared/panels/element';
 import { addSection } from '../../shared/panels/section';
-import { heading, numberCell, rowOf } from '../../shared/panels/table-parts';
+import { heading, numberCell, rowOf, tableOf } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
 import { faceAt, faceStory, planStory } from '../state/plan-file';
 import { PANE_TITLES, type RefinementState } from '../state/refinement-state';
@@ -22,10 +22,9 @@ function patternTable({ plan }: RefinementState): HTMLElement {
       numberCell(String(pattern.nVertices)),
     );
   });
-  return element(
-    'table',
-    { class: 'quantities pattern-table' },
-    element('caption', { class: 'unseen' }, 'Patterns, curvature in 1/m'),
+  return tableOf(
+    'quantities pattern-table',
+    'Patterns, curvature in 1/m',
     heading('Pattern', 'mean 1/m', 'deviation', 'vertices'),
     element('tbody', {}, ...rows),
   );

@@ -1,4 +1,5 @@
 // The choice of a fabric, its measured numbers, and where each comes from.
+
 import { fabricNamed, fabrics } from '../../../shared/fabric/fabric-data';
 import { lookOf } from '../../../shared/fabric/fabric-look';
 import { choice, element, field } from '../../../shared/panels/element';
@@ -8,6 +9,7 @@ import {
   sourceList,
 } from '../../../shared/panels/fabric-quantities';
 import { addSection, folded, noteLine } from '../../../shared/panels/section';
+import { tableOf } from '../../../shared/panels/table-parts';
 import { type Store, watch } from '../../../shared/state/store';
 import type { MotionState } from '../../state/motion-state';
 import { ownQuantities } from '../../state/setting';
@@ -25,12 +27,7 @@ export function createFabricPanel(parent: HTMLElement, store: Store<MotionState>
   const sourceBody = element('div', {}, construction);
   const rows = element('tbody');
   const sourcesBox = folded('Where the numbers come from', {}, sourceBody);
-  const table = element(
-    'table',
-    { class: 'quantities' },
-    element('caption', { class: 'unseen' }, 'Measured numbers of the fabric'),
-    rows,
-  );
+  const table = tableOf('quantities', 'Measured numbers of the fabric', rows);
   const meaningBox = folded('What the words mean', {}, quantityMeanings());
   addSection(
     parent,
