@@ -8,7 +8,7 @@ import { fabricNamed } from '../shared/fabric/fabric-data';
 import { createAnnouncer } from '../shared/panels/announcer';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
-import { createKeyList } from '../shared/panels/keys-panel';
+import { createKeyList, type Keys } from '../shared/panels/keys-panel';
 import { openStage } from '../shared/panels/open-stage';
 import { objText, save } from '../shared/panels/saving';
 import { createStageCanvas } from '../shared/panels/stage-canvas';
@@ -40,7 +40,7 @@ import {
 } from './state/refinement-state';
 import type { GarmentMesh } from './worker/garment-protocol';
 
-const KEYS: readonly [string, string][] = [
+const KEYS: Keys = [
   ['Space', 'play or pause'],
   ['.', 'one frame'],
   ['R', 'reset'],

@@ -11,10 +11,10 @@ import type { StartShape } from '../../shared/page/view';
 import { createClock } from '../../shared/state/clock';
 import { Latest } from '../../shared/state/latest';
 import {
-  type ObjFile,
   type ObjUnit,
-  oddSize,
+  type OwnMesh,
   openObjFile,
+  ownMeshState,
   textInMetres,
 } from '../../shared/state/obj-file';
 import type { Store } from '../../shared/state/store';
@@ -64,11 +64,6 @@ interface Opening {
   own: OwnMesh | null;
 }
 
-interface OwnMesh {
-  file: ObjFile;
-  unit: ObjUnit;
-}
-
 type Shown = Pick<
   FabricsState,
   'compared' | 'gallery' | 'order' | 'chosen' | 'terms' | 'form' | 'weightsFrom'
@@ -87,10 +82,6 @@ const UNMOVED: Pick<FabricsLink, 'moved' | 'released'> = { moved: [], released: 
 async function meshText({ experiment, own }: Opening): Promise<string> {
   if (own) return textInMetres(own.file, own.unit);
   return experiment.meshUrl === null ? '' : (await fetched(experiment.meshUrl)).text();
-}
-
-function ownState({ file, unit }: OwnMesh) {
-  return { objName: file.name, objUnit: unit, objOdd: oddSize(file, unit) };
 }
 
 export class Deformer {
@@ -273,7 +264,7 @@ export class Deformer {
     this.store.set({
       phase: 'ready',
       experiment: experiment.id,
-      ...(own ? ownState(own) : {}),
+      ...(own ? ownMeshState(own) : {}),
       reading: null,
       cloth: answer,
       ownHolds,

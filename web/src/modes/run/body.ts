@@ -7,7 +7,7 @@ import { bent, type KeyOrigin, type KeyShape } from '../state/key-shapes';
 import type { ModeNumbers } from '../state/material';
 import { mixInto, REACH } from '../state/mix';
 import { pulledMix, timeNearest } from '../state/pull';
-import { shapeAt, straightAt } from '../state/timeline';
+import { shapeAt } from '../state/timeline';
 import type { CompletedMessage, OpenedMessage } from '../worker/modal-protocol';
 
 export class Body {
@@ -58,10 +58,6 @@ export class Body {
   between(target: Float32Array, time: number): boolean {
     if (this.filled) shapeAt(target, this.filled.positions, this.filled.frames, time);
     return this.filled !== null;
-  }
-
-  straight(target: Float32Array, keys: readonly KeyShape[], time: number): void {
-    straightAt(target, keys, time);
   }
 
   /** The time at which a vertex is nearest to a place; null before the motion is there. */

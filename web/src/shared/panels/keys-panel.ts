@@ -2,16 +2,21 @@
 import { element } from './element';
 import { addSection, folded, noteLine } from './section';
 
-type Keys = readonly (readonly [string, string])[];
+export type Keys = readonly (readonly [string, string])[];
+
+/** Keys that turn the view. */
+export const VIEW_KEYS: Keys = [
+  ['Arrows', 'turn the view'],
+  ['+ and -', 'closer, farther'],
+  ['Home', 'first view'],
+];
 
 /** Keys of a run that is looked at. */
 export const RUN_KEYS: Keys = [
   ['Space', 'play or pause'],
   ['.', 'one step'],
   ['R', 'reset'],
-  ['Arrows', 'turn the view'],
-  ['+ and -', 'closer, farther'],
-  ['Home', 'first view'],
+  ...VIEW_KEYS,
 ];
 
 /** Keys of a run whose cloth can be taken. */

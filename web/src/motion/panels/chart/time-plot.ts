@@ -1,4 +1,5 @@
 // Quantities over time, as lines.
+import '../../../shared/page/energies.css';
 import './time-plot.css';
 import { spanScale } from '../../../shared/chart/linear-scale';
 import { pathThrough } from '../../../shared/chart/path-through';
