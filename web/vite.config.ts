@@ -2,7 +2,7 @@ import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
 import { compactJson } from './build-steps/compact-json.ts';
 import { compactShaders } from './build-steps/compact-shaders.ts';
-import { firstFigure } from './build-steps/first-figure.ts';
+import { firstBody } from './build-steps/first-body.ts';
 import { firstLoadBudget } from './build-steps/first-load-budget.ts';
 import { offlineCopy } from './build-steps/offline-copy.ts';
 import { stepperRows } from './build-steps/stepper-rows.ts';
@@ -26,7 +26,7 @@ export default defineConfig({
     compactJson(),
     compactShaders(),
     stepperRows(),
-    firstFigure(),
+    firstBody(),
     offlineCopy(),
     firstLoadBudget(),
   ],

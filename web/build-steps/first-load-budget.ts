@@ -13,7 +13,7 @@ const MOST_MODULE_KB = 600;
  * a sweep and of the later views. Of chunks and styles the first load has what the entry imports.
  */
 const LATER =
-  /\.(map|obj|reference|recording|wasm|css)$|(^|\/)(sweep|obj|measuring|convergence|deform|garment|example|modal|failures)-worker-|(^|\/)(plan|floor|(skirt|(slim_)?trousers)(_even)?)-/;
+  /\.(map|obj|reference|recording|wasm|css)$|(^|\/)(sweep|obj|measuring|convergence|deform|garment|example|modal)-worker-|(^|\/)(plan|floor|(skirt|(slim_)?trousers)(_even)?)-/;
 
 type Bundle = Rolldown.OutputBundle;
 

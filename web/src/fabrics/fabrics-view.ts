@@ -1,6 +1,7 @@
 // The view of fabrics: one cloth, pulled by hand, in one to four fabrics or in all. Its store, its
 // worker, its stage and its panels, wired together.
 import type { StartShape, View } from '../shared/page/view';
+import '../shared/page/energies.css';
 import '../shared/page/panes.css';
 import './fabrics.css';
 import './panel.css';
@@ -10,7 +11,7 @@ import { createDropTarget } from '../shared/panels/drop-target';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
 import { createInvitation } from '../shared/panels/invitation';
-import { createKeyList } from '../shared/panels/keys-panel';
+import { createKeyList, type Keys, VIEW_KEYS } from '../shared/panels/keys-panel';
 import { openStage } from '../shared/panels/open-stage';
 import { createStageCanvas } from '../shared/panels/stage-canvas';
 import { createLinkWriter } from '../shared/state/link-writer';
@@ -38,14 +39,12 @@ import { decodeFabricsLink, encodeFabricsLink } from './state/fabrics-link';
 import { type FabricsState, initialFabricsState, recordOf } from './state/fabrics-state';
 import { joined, middleOf } from './state/holds';
 
-const KEYS: readonly [string, string][] = [
+const KEYS: Keys = [
   ['G', 'take the cloth at the middle of the chosen picture; then arrows, Page Up and Page Down'],
   ['G or Escape', 'let go: the handle stays'],
   ['P', 'change between pulling and pinning'],
   ['1 to 4', 'choose a picture'],
-  ['Arrows', 'turn the view'],
-  ['+ and -', 'closer, farther'],
-  ['Home', 'first view'],
+  ...VIEW_KEYS,
 ];
 
 export interface FabricsActions {
@@ -274,11 +273,10 @@ export function createFabricsView(root: HTMLElement, hash: string, actions: Fabr
   createAnnouncer(messages, store, fabricsSentence);
   createTools(toolBox, store, deformer, () => picture.stage?.homeView(), actions);
   createPanels(panel, store, deformer, picture);
-  createDropTarget(document.body, {
-    openObj(file) {
-      if (isShown) void deformer.openObj(file);
-    },
-  });
+  createDropTarget(
+    () => isShown,
+    (file) => void deformer.openObj(file),
+  );
   deformer.openExperiment(first.link.experiment, first.link);
 
   const link = () => `#${encodeFabricsLink(store.get())}`;

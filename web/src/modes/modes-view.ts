@@ -7,7 +7,7 @@ import { createAnnouncer } from '../shared/panels/announcer';
 import { createDropTarget } from '../shared/panels/drop-target';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
-import { createKeyList } from '../shared/panels/keys-panel';
+import { createKeyList, type Keys, VIEW_KEYS } from '../shared/panels/keys-panel';
 import { objText, save } from '../shared/panels/saving';
 import { createStageCanvas } from '../shared/panels/stage-canvas';
 import { createLinkWriter } from '../shared/state/link-writer';
@@ -28,15 +28,13 @@ import { firstKeys } from './state/key-shapes';
 import { decodeModesLink, encodeModesLink } from './state/modes-link';
 import { initialModesState, type ModesState } from './state/modes-state';
 
-const KEYS: readonly [string, string][] = [
+const KEYS: Keys = [
   ['Space', 'play or pause'],
   ['M', 'modes or key frames'],
   ['1 to 9', 'that mode alone'],
   [', and .', 'back and on along the keys'],
   ['K', 'keep the mix as a key'],
-  ['Arrows', 'turn the view'],
-  ['+ and -', 'closer, farther'],
-  ['Home', 'first view'],
+  ...VIEW_KEYS,
 ];
 
 function createPanels(
@@ -140,11 +138,10 @@ export function createModesView(root: HTMLElement, hash: string): View {
   });
   createTimeline(timeline, store, run, hands);
   createPanels(panel, store, run, hands);
-  createDropTarget(document.body, {
-    openObj(file) {
-      if (isShown) void run.openObj(file);
-    },
-  });
+  createDropTarget(
+    () => isShown,
+    (file) => void run.openObj(file),
+  );
   run.openModel(first.link.model, first.link);
 
   const link = () => `#${encodeModesLink(store.get())}`;

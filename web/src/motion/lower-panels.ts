@@ -1,6 +1,7 @@
 // The panels that are far down: they come once there is a cloth to be told of.
-import { element } from '../shared/panels/element';
+
 import { createKeyList, HAND_KEYS } from '../shared/panels/keys-panel';
+import { addSection } from '../shared/panels/section';
 import { type Store, watch } from '../shared/state/store';
 import { createConvergencePanel } from './panels/convergence/convergence-panel';
 import { createEnergyPanel } from './panels/energy/energy-panel';
@@ -19,10 +20,10 @@ function createSweepTray(
 ): () => void {
   const bring = later(store, 'The chart of the sweep', async () => {
     const { createSpeedErrorView } = await import('./panels/speed-error/speed-error-view');
-    return createSpeedErrorView(parent, store, run);
+    createSpeedErrorView(parent, store, run);
   });
   watch(store, ['sweepOpen'], async ({ sweepOpen }) => {
-    if (sweepOpen && !(await bring())) store.set({ sweepOpen: false });
+    if (sweepOpen && (await bring()) === null) store.set({ sweepOpen: false });
   });
   return async () => {
     store.set({ sweepOpen: true });
@@ -46,8 +47,7 @@ function createLaterSweep(store: Store<MotionState>): Sweep {
 
 /** Tells what contact does where there are solids. */
 function createLaterContact(parent: HTMLElement, store: Store<MotionState>): void {
-  const section = element('section', { 'aria-label': 'Contact' });
-  parent.append(section);
+  const section = addSection(parent, 'Contact');
   const bring = later(store, 'The panel of contact', async () => {
     const { createContactPanel } = await import('./panels/contact/contact-panel');
     return createContactPanel(section, store);

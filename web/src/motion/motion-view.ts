@@ -194,11 +194,10 @@ export function createMotionView(place: Place, hash: string): MotionView {
   running = run;
   const link = () => `#${encodeMotionLink(linkTo(store.get()))}`;
   createPanels(place, store, run, { homeView: () => stage?.homeView(), link });
-  createDropTarget(document.body, {
-    openObj(file) {
-      if (isShown) void run.obj.open(file);
-    },
-  });
+  createDropTarget(
+    () => isShown,
+    (file) => void run.obj.open(file),
+  );
   if (stage) {
     drawFrom(store, stage);
     drawOverlays(place('stage'), store, stage, run);

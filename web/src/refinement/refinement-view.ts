@@ -1,6 +1,6 @@
 // The view of refinement: one garment on a walking body, on a coarse, a planned and a fine mesh. Its
 // store, its workers, its stage and its panels, wired together.
-import firstBody from 'virtual:pleat-figure';
+import firstBody from 'virtual:pleat-body';
 import type { View } from '../shared/page/view';
 import '../shared/page/panes.css';
 import './refinement.css';
@@ -8,7 +8,7 @@ import { fabricNamed } from '../shared/fabric/fabric-data';
 import { createAnnouncer } from '../shared/panels/announcer';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
-import { createKeyList } from '../shared/panels/keys-panel';
+import { createKeyList, type Keys } from '../shared/panels/keys-panel';
 import { openStage } from '../shared/panels/open-stage';
 import { objText, save } from '../shared/panels/saving';
 import { createStageCanvas } from '../shared/panels/stage-canvas';
@@ -28,7 +28,7 @@ import { createStoryPanel } from './panels/story-panel';
 import { createWork } from './panels/work';
 import type { ShownFrame } from './run/pane-set';
 import { Trio } from './run/trio';
-import { createGarmentStage, type GarmentStage } from './stage/garment-stage';
+import { GarmentStage } from './stage/garment-stage';
 import { decodeRefinementLink, encodeRefinementLink } from './state/refinement-link';
 import {
   comparedPanes,
@@ -40,7 +40,7 @@ import {
 } from './state/refinement-state';
 import type { GarmentMesh } from './worker/garment-protocol';
 
-const KEYS: readonly [string, string][] = [
+const KEYS: Keys = [
   ['Space', 'play or pause'],
   ['.', 'one frame'],
   ['R', 'reset'],
@@ -76,14 +76,17 @@ class Picture {
   /** Opens the stage where the browser can draw it. */
   open(box: HTMLElement, canvas: HTMLCanvasElement, key: (name: string) => boolean): void {
     const { store } = this;
-    this.stage = openStage(canvas, store, (pictureLost) =>
-      createGarmentStage(box, canvas, {
-        press(pane, face) {
-          if (PANES[pane] === 'planned') store.set({ face });
-        },
-        key,
-        pictureLost,
-      }),
+    this.stage = openStage(
+      canvas,
+      store,
+      (pictureLost) =>
+        new GarmentStage(box, canvas, {
+          press(pane, face) {
+            if (PANES[pane] === 'planned') store.set({ face });
+          },
+          key,
+          pictureLost,
+        }),
     );
     // Somebody stands there until the clothes have come.
     this.stage?.setSolids(firstBody as SolidsAnswer);

@@ -510,9 +510,5 @@ export async function checkFabrics(harness) {
     [768, 1024],
   ]);
 
-  await checkWithoutModule(
-    '#view=fabrics',
-    'once it comes other views work',
-    expectMotionWorks,
-  );
+  await checkWithoutModule('#view=fabrics', 'once it comes other views work', expectMotionWorks);
 }

@@ -264,9 +264,5 @@ export async function checkModes(harness) {
     [1440, 900],
   ]);
 
-  await checkWithoutModule(
-    '#view=modes',
-    'once it comes other views work',
-    expectMotionWorks,
-  );
+  await checkWithoutModule('#view=modes', 'once it comes other views work', expectMotionWorks);
 }

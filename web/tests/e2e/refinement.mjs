@@ -421,9 +421,5 @@ export async function checkRefinement(harness) {
     [1024, 768],
   ]);
 
-  await checkWithoutModule(
-    '#view=refinement',
-    'once it comes other views work',
-    expectMotionWorks,
-  );
+  await checkWithoutModule('#view=refinement', 'once it comes other views work', expectMotionWorks);
 }

@@ -1,19 +1,22 @@
 // What the captions of the shipped experiments say of their shapes, found by the module.
+
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { beforeAll, describe, expect, it } from 'vitest';
+import type { TermNumbers } from '../../src/fabrics/bindings/deform-module';
 import {
   type ClothAnswer,
   type DeformationHandle,
   type DeformModule,
   WAY,
 } from '../../src/fabrics/bindings/deform-module';
-import { TERMS, type Term, type Triple } from '../../src/fabrics/state/deform-state';
+import { TERMS, type Term } from '../../src/fabrics/state/deform-state';
 import { EXPERIMENTS } from '../../src/fabrics/state/experiments';
-import { geometryOf, triple } from '../../src/fabrics/state/fabric-geometry';
-import { holdsOf, joined, placeOf } from '../../src/fabrics/state/holds';
+import { geometryOf, perTerm } from '../../src/fabrics/state/fabric-geometry';
+import { holdsOf, joined } from '../../src/fabrics/state/holds';
 import type { Triple as Place } from '../../src/shared/bindings/geometry';
 import { fabricNamed, fabrics, fabricsText } from '../../src/shared/fabric/fabric-data';
+import { placeOf } from '../../src/shared/state/vectors';
 import { loadModule } from '../support/built-module';
 
 const FILES = fileURLToPath(new URL('../../../assets/deform', import.meta.url));
@@ -38,14 +41,14 @@ class Stand {
   }
 
   /** Least energy with these weights; the terms are unweighted. */
-  shape(weights: Triple, form: 'consistent' | 'published' = 'consistent') {
+  shape(weights: TermNumbers, form: 'consistent' | 'published' = 'consistent') {
     this.run.show(JSON.stringify({ form, weights: [weights] }));
     const { vertices, places } = this.holds();
     this.run.hold(vertices, places);
     this.run.restart(0);
     this.run.beginSettling(0, true);
     while (this.run.settle(0) !== WAY.done);
-    const { terms } = JSON.parse(this.run.report(0)) as { terms: Triple };
+    const { terms } = JSON.parse(this.run.report(0)) as { terms: TermNumbers };
     return { places: this.run.exactPositions(0).slice(), terms };
   }
 
@@ -79,7 +82,7 @@ class Stand {
 const heightOf = (places: Float64Array, vertices: readonly number[]) =>
   vertices.reduce((sum, v) => sum + (places[3 * v + 1] ?? 0), 0) / vertices.length;
 
-const only = (...terms: Term[]) => triple((term) => (terms.includes(term) ? 1 / terms.length : 0));
+const only = (...terms: Term[]) => perTerm((term) => (terms.includes(term) ? 1 / terms.length : 0));
 
 /** Of ranks: 1 where both go up together, -1 where one goes down as the other goes up. */
 function rankCorrelation(a: readonly number[], b: readonly number[]): number {

@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { TERMS, type Term, type Triple } from '../../src/fabrics/state/deform-state';
+import type { TermNumbers } from '../../src/fabrics/bindings/deform-module';
+import { TERMS, type Term } from '../../src/fabrics/state/deform-state';
 import { EXPECTATIONS } from '../../src/fabrics/state/fabric-expectations';
 import { geometryOf } from '../../src/fabrics/state/fabric-geometry';
 import { fabricNamed, fabrics } from '../../src/shared/fabric/fabric-data';
@@ -9,24 +10,24 @@ const all = fabrics.map((fabric) => geometryOf(fabric).recomputed);
 const weightsOf = (name: string) => geometryOf(fabricNamed(name)).recomputed;
 
 /** 1 for the fabric with the least weight on that term. */
-const rank = (weights: Triple, term: Term) =>
+const rank = (weights: TermNumbers, term: Term) =>
   1 + all.filter((other) => other[term] < weights[term]).length;
 
-const isTop = (weights: Triple, term: Term) =>
+const isTop = (weights: TermNumbers, term: Term) =>
   TERMS.every((other) => weights[other] <= weights[term]);
 
-const unevenness = (weights: Triple) => {
+const unevenness = (weights: TermNumbers) => {
   const shares = TERMS.map((term) => weights[term]);
   return Math.max(...shares) - Math.min(...shares);
 };
 
-const isAlmost = (a: Triple, b: Triple) =>
+const isAlmost = (a: TermNumbers, b: TermNumbers) =>
   TERMS.every((term) => Math.abs(a[term] - b[term]) < 0.005);
 
 const most = fabrics.length;
 
 /** What a sentence may say, and the weights of which that is true. */
-const CLAIMS: readonly [RegExp, (weights: Triple) => boolean][] = [
+const CLAIMS: readonly [RegExp, (weights: TermNumbers) => boolean][] = [
   [/weighs recovery most/i, (w) => isTop(w, 'recovery')],
   [/recovery most, then stretch/, (w) => w.stretch > w.bending],
   [/recovery by the largest share of all/, (w) => rank(w, 'recovery') === most],

@@ -1,19 +1,19 @@
 // Both sides of a case, played through the real core.
 import { describe, expect, it } from 'vitest';
 import { Duel, type DuelView } from '../../src/failures/run/duel';
-import type { SideClient } from '../../src/failures/run/failures-client';
 import { caseNamed } from '../../src/failures/state/failure-cases';
 import { type FailuresState, initialFailuresState } from '../../src/failures/state/failures-state';
 import { frameViews } from '../../src/shared/bindings/frame';
 import type { PleatModule } from '../../src/shared/bindings/pleat-module';
 import { createStore } from '../../src/shared/state/store';
 import { BrokenWorker } from '../../src/shared/workers/asked';
+import type { MotionClient } from '../../src/shared/workers/motion-client';
 import { MotionCore } from '../../src/shared/workers/motion-core';
 import type { FromMotion } from '../../src/shared/workers/motion-protocol';
 import { loadModule } from '../support/built-module';
 
 /** A worker's end without a worker: each question is answered a moment later. */
-function clientOf(module: PleatModule): SideClient {
+function clientOf(module: PleatModule): MotionClient {
   let answer: FromMotion | null = null;
   const core = new MotionCore(module, (message) => {
     answer = message;
@@ -130,7 +130,7 @@ describe('a duel', () => {
           ask: () => Promise.reject(new BrokenWorker('no program')),
           tell() {},
           terminate() {},
-        } as SideClient;
+        } as MotionClient;
       },
       later() {},
       nowMs: () => 0,

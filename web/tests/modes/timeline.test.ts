@@ -4,9 +4,10 @@ import { worstVolumes } from '../../src/modes/panels/completion-words';
 import { swung, thereAndBack } from '../../src/modes/run/swing';
 import { bent } from '../../src/modes/state/key-shapes';
 import { modeNumbers } from '../../src/modes/state/material';
-import { enclosedVolume, extentOf, farthestMove, mixInto } from '../../src/modes/state/mix';
+import { enclosedVolume, farthestMove, mixInto } from '../../src/modes/state/mix';
 import { pulledMix, timeNearest } from '../../src/modes/state/pull';
 import { frameCount, placeIn, shapeAt, straightAt } from '../../src/modes/state/timeline';
+import { extentOf } from '../../src/shared/state/vectors';
 
 function frame(time: number, volume = 1, straight = volume): FilledFrame {
   return {

@@ -120,7 +120,7 @@ describe('study of contact', () => {
 
   it('is made once for a scene, whether it bounces or not, and anew for another', async () => {
     vi.useFakeTimers();
-    const { store, source, asked, ended } = sourceOf(async () => ({
+    const { store, asked, ended } = sourceOf(async () => ({
       type: 'studied',
       study: STUDY,
     }));
@@ -135,7 +135,6 @@ describe('study of contact', () => {
     await vi.runAllTimersAsync();
     expect(asked).toHaveLength(2);
     expect(ended()).toBe(2);
-    source.close();
     vi.useRealTimers();
   });
 

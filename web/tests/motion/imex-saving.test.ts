@@ -72,10 +72,9 @@ describe('imex saving source', () => {
       const substeps = explicitShare > 0 ? 2 * given : given;
       return isLate ? null : { substeps, share: 100 * (stepS / substeps) };
     };
-    const source = new ImexSavingSource(store, readShare, start);
+    new ImexSavingSource(store, readShare, start);
     return {
       store,
-      source,
       asked,
       saving: () => store.get().imexSaving,
       drag: (draggedSubsteps: number) => store.set({ draggedSubsteps }),
@@ -199,7 +198,6 @@ describe('imex saving source', () => {
     races[0]?.end(null);
     await pass(0);
     expect(page.saving()?.time).toBeNull();
-    page.source.close();
   });
 });
 

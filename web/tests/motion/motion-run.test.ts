@@ -1,8 +1,8 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { linkSentence } from '../../src/motion/panels/link-tool';
 import { errorWords } from '../../src/motion/panels/numbers/error-words';
-import type { StartMotion, StartObj } from '../../src/motion/run/motion-client';
 import { MotionRun } from '../../src/motion/run/motion-run';
+import type { StartObj } from '../../src/motion/run/obj-client';
 import { decodeMotionLink, encodeMotionLink, linkTo } from '../../src/motion/state/motion-link';
 import { initialMotionState, shownHeat } from '../../src/motion/state/motion-state';
 import { presetSetting, withModel, withStepper } from '../../src/motion/state/setting';
@@ -13,6 +13,7 @@ import { frameViews } from '../../src/shared/bindings/frame';
 import type { PleatModule } from '../../src/shared/bindings/pleat-module';
 import { createStore } from '../../src/shared/state/store';
 import { createAsked } from '../../src/shared/workers/asked';
+import type { StartMotion } from '../../src/shared/workers/motion-client';
 import { MotionCore } from '../../src/shared/workers/motion-core';
 import type { FromMotion, ToMotion } from '../../src/shared/workers/motion-protocol';
 import { loadModule } from '../support/built-module';

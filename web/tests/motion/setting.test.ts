@@ -13,7 +13,7 @@ import {
   withModel,
   withStepper,
 } from '../../src/motion/state/setting';
-import { settingOfRow, sweepPlan } from '../../src/motion/state/sweep-plan';
+import { settingOf, sweepPlan } from '../../src/motion/state/sweep-plan';
 import { NO_SWEEP, rowOfSetting, sweptScene } from '../../src/motion/state/sweep-state';
 import { fabricNamed } from '../../src/shared/fabric/fabric-data';
 import { quantityReadings } from '../../src/shared/panels/fabric-quantities';
@@ -38,7 +38,7 @@ describe('setting', () => {
     const method = sceneOf(withStepper(start, 'explicit')).method;
     expect(method).toMatchObject({ stepper: 'explicit', substeps: 'stable' });
     const row = rowFor(1, { stepper: 'explicit', step_s: 1 / 60, substeps: 'stable' });
-    expect(settingOfRow(row, start).substeps).toBe(0);
+    expect(settingOf(row, start).substeps).toBe(0);
   });
 
   it('asks for a share of explicit springs of imex alone, and only where there is one', () => {
@@ -174,7 +174,7 @@ describe('sweep-plan', () => {
     );
     const scene = sweptScene(start, null);
     for (const row of rows) {
-      const setting = settingOfRow(row, start);
+      const setting = settingOf(row, start);
       expect(rowOfSetting({ sweep: { ...NO_SWEEP, rows, scene }, setting, mesh: null })).toBe(row);
     }
   });
@@ -182,7 +182,7 @@ describe('sweep-plan', () => {
   it('takes no row of another fabric or model, or of a failed run', () => {
     const method = { stepper: 'implicit', step_s: 1 / 60, substeps: 1 };
     const row = rowFor(1, method);
-    const setting = settingOfRow(row, start);
+    const setting = settingOf(row, start);
     for (const change of [{ fabric: 'silk' }, { model: 'membrane' as const }]) {
       const scene = { ...sweptScene(start, null), ...change };
       const sweep = { ...NO_SWEEP, rows: [row], scene };

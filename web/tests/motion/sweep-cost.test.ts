@@ -39,7 +39,7 @@ describe('what a sweep would take', () => {
 
   it('is what the planned methods took themselves, where they were measured', () => {
     const methods = [0, 1].flatMap((level) =>
-      methodsAt(level, shown.model, false).map((method) => settingOf(level, method, shown)),
+      methodsAt(level, shown.model, false).map((method) => settingOf({ level, method }, shown)),
     );
     const costs = methods.reduce((known, one) => withCost(known, one, 2), measured);
     // Sixty steps, five times and one and a half.

@@ -4,7 +4,7 @@ import type { RefinementModule } from '../../src/refinement/bindings/refinement-
 import { hintedSubsteps, warningWords } from '../../src/refinement/panels/garment-words';
 import type { GarmentClient } from '../../src/refinement/run/garment-client';
 import type { ShownFrame } from '../../src/refinement/run/pane-set';
-import { createPlanner, type Progress, type Wish } from '../../src/refinement/run/planner';
+import { ExamplePlanner, type Progress, type Wish } from '../../src/refinement/run/planner';
 import { exampleUrls } from '../../src/refinement/run/records';
 import { Trio, type TrioParts } from '../../src/refinement/run/trio';
 import { basePatterns, type PlanFile } from '../../src/refinement/state/plan-file';
@@ -32,7 +32,7 @@ const PATIENCE_MS = 240000;
 /** The first three frames of a further example count, instead of minutes of work. */
 const SEEN = { fromS: 0, toS: 0.1 };
 
-const plannerParts = () => createPlanner(() => exampleClient(module), recordBytes, SEEN);
+const plannerParts = () => new ExamplePlanner(() => exampleClient(module), recordBytes, SEEN);
 
 /** Panes that are pulled down a hundred thousand times as much as on earth. */
 function heavy(questions: ToGarment[]): GarmentClient {
@@ -164,7 +164,7 @@ describe('further examples', () => {
   it(
     'say what is wrong with one that cannot run',
     async () => {
-      const steep = createPlanner(
+      const steep = new ExamplePlanner(
         () => {
           const client = exampleClient(module);
           return {
@@ -189,7 +189,7 @@ describe('further examples', () => {
   function halfway(failure: Error | null) {
     const planner = plannerParts();
     return {
-      ...planner,
+      cancel: () => planner.cancel(),
       async plan(wish: Wish, progress?: Progress) {
         if (wish.further.length === 0) return planner.plan(wish);
         progress?.('squat', 0.5);
@@ -487,7 +487,7 @@ describe('trio', () => {
       const planner = plannerParts();
       let isSlow = false;
       const slow = {
-        ...planner,
+        cancel: () => planner.cancel(),
         plan: (wish: Wish) =>
           isSlow ? new Promise<PlanFile>(() => undefined) : planner.plan(wish),
       };

@@ -1,20 +1,21 @@
 import { describe, expect, it } from 'vitest';
+import type { FitAnswer, TermNumbers } from '../../src/fabrics/bindings/deform-module';
 import { curveWords, isWide, weightedSteps } from '../../src/fabrics/panels/energy-curve';
 import { clampedWords, readMeasure, trustWords } from '../../src/fabrics/panels/own-fabric-form';
 import { comparedReading, paneReading, SPIKE } from '../../src/fabrics/panels/term-reading';
 import { switched } from '../../src/fabrics/panels/term-switches';
-import type { OwnFabric, PaneState, Triple } from '../../src/fabrics/state/deform-state';
-import { errorOfMean, measuredRange, triple } from '../../src/fabrics/state/fabric-geometry';
+import type { PaneState } from '../../src/fabrics/state/deform-state';
+import { errorOfMean, measuredRange, perTerm } from '../../src/fabrics/state/fabric-geometry';
 import { linearScale } from '../../src/shared/chart/linear-scale';
 
 const ALL = { recovery: true, stretch: true, bending: true };
-const of = (recovery: number, stretch: number, bending: number): Triple => ({
+const of = (recovery: number, stretch: number, bending: number): TermNumbers => ({
   recovery,
   stretch,
   bending,
 });
 
-function pane(name: string, weights: Triple, terms: Triple): PaneState {
+function pane(name: string, weights: TermNumbers, terms: TermNumbers): PaneState {
   const energy =
     weights.recovery * terms.recovery +
     weights.stretch * terms.stretch +
@@ -141,10 +142,10 @@ describe('own-fabric-form', () => {
     },
   );
 
-  const own: OwnFabric = {
+  const own: FitAnswer = {
     weights: of(0.4, 0.2, 0.4),
     normalised: of(0.7, 0.3, 0.7),
-    leave_one_out_error: { ...triple(errorOfMean), recovery: 0.2 },
+    leave_one_out_error: { ...perTerm(errorOfMean), recovery: 0.2 },
     clamped: ['stretch', 'recovery'],
     measured_range: {
       recovery: measuredRange('recovery'),

@@ -1,9 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { DEFORM_METHODS } from '../../src/fabrics/bindings/deform-module';
-import { MODAL_METHODS } from '../../src/modes/bindings/modal-module';
 import type { SweepModule } from '../../src/motion/bindings/sweep-module';
-import { SWEEP_METHODS } from '../../src/motion/bindings/sweep-module';
 import {
   PRESET_IDS,
   PRESETS,
@@ -13,16 +10,14 @@ import {
   withModel,
   withStepper,
 } from '../../src/motion/state/setting';
-import { settingOfRow, sweepPlan } from '../../src/motion/state/sweep-plan';
+import { settingOf, sweepPlan } from '../../src/motion/state/sweep-plan';
 import { readObj } from '../../src/motion/worker/obj-core';
 import type { ObjReadMessage } from '../../src/motion/worker/obj-protocol';
 import { SweepCore } from '../../src/motion/worker/sweep-core';
 import type { FromSweep } from '../../src/motion/worker/sweep-protocol';
-import { REFINEMENT_METHODS } from '../../src/refinement/bindings/refinement-module';
 import type { Failure } from '../../src/shared/bindings/answers';
 import { frameViews } from '../../src/shared/bindings/frame';
 import type { PleatModule, RunNumbers } from '../../src/shared/bindings/pleat-module';
-import { PLEAT_METHODS } from '../../src/shared/bindings/pleat-module';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { openObjFile } from '../../src/shared/state/obj-file';
 import { canRun, STEPPER_NAMES, STEPPERS } from '../../src/shared/steppers/steppers';
@@ -31,6 +26,7 @@ import type { FromMotion, ToMotion } from '../../src/shared/workers/motion-proto
 import { boundMethods } from '../support/bound-methods';
 import { loadModule } from '../support/built-module';
 import { createFakeModule } from '../support/fake-module';
+import { TYPED_METHODS } from '../support/typed-methods';
 
 type AllModules = PleatModule & SweepModule;
 
@@ -392,7 +388,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
       expect(row.reference.converged).toBe(true);
       expect(row.ms_per_frame).toBeGreaterThan(0);
       expect(row.position_error_m).toBeGreaterThan(0);
-      expect(settingOfRow(row, setting).stepper).toBe(row.method.stepper);
+      expect(settingOf(row, setting).stepper).toBe(row.method.stepper);
       if (_name !== 'the stand-in') expect(row.commit).toMatch(/\S/);
     }
   });
@@ -542,7 +538,7 @@ describe('motion-core with a module that lacks CHOLMOD', () => {
     ]);
     posted.length = 0;
     for (const row of rows) {
-      const text = JSON.stringify(sceneOf(settingOfRow(row, setting)));
+      const text = JSON.stringify(sceneOf(settingOf(row, setting)));
       send({ type: 'load', sceneText: text, keepMotion: false });
       take('loaded');
     }
@@ -676,12 +672,6 @@ describe('the cost of a step', () => {
 
 describe('the module', () => {
   it('binds exactly the classes and methods that the types name', async () => {
-    expect(boundMethods(await loadModule())).toEqual({
-      ...PLEAT_METHODS,
-      ...SWEEP_METHODS,
-      ...DEFORM_METHODS,
-      ...REFINEMENT_METHODS,
-      ...MODAL_METHODS,
-    });
+    expect(boundMethods(await loadModule())).toEqual(TYPED_METHODS);
   });
 });

@@ -39,7 +39,5 @@ export function garmentClient(module: RefinementModule, log: ToGarment[] = []): 
 }
 
 export function exampleClient(module: RefinementModule): ExampleClient {
-  return createAsked(
-    workerPort<ToExample, FromExample>((post) => new ExampleCore(module, post, () => 0)),
-  );
+  return createAsked(workerPort<ToExample, FromExample>((post) => new ExampleCore(module, post)));
 }

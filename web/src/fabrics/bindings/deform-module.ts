@@ -1,5 +1,4 @@
 // The class bound by the module that finds shapes, and the shape of the texts it answers with.
-import { methodsOf } from '../../shared/bindings/methods';
 
 /** One number for each term of the energy of a deformed cloth. */
 export interface TermNumbers {
@@ -42,8 +41,10 @@ export interface DeformReport {
 export interface FitAnswer {
   weights: TermNumbers;
   normalised: TermNumbers;
+  /** RMS, in normalised measures. */
   leave_one_out_error: TermNumbers;
   measured_range: Record<keyof TermNumbers, [number, number]>;
+  /** Measures outside the measured range, which were clamped to it. */
   clamped: (keyof TermNumbers)[];
   nearest: string;
 }
@@ -90,24 +91,3 @@ export interface DeformationHandle {
 export interface DeformModule {
   Deformation: new (fabricsText: string) => DeformationHandle;
 }
-
-export const DEFORM_METHODS: Record<keyof DeformModule, string[]> = {
-  Deformation: methodsOf<DeformationHandle>({
-    open: true,
-    show: true,
-    hold: true,
-    moveHeld: true,
-    follow: true,
-    step: true,
-    restart: true,
-    beginSettling: true,
-    settle: true,
-    report: true,
-    fitMeasures: true,
-    clothSection: true,
-    triangles: true,
-    positions: true,
-    exactPositions: true,
-    delete: true,
-  }),
-};

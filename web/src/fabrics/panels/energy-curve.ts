@@ -1,21 +1,19 @@
 // The energy after each step towards the shape, in whole and term by term, drawn and as a table.
+
 import { linearScale } from '../../shared/chart/linear-scale';
 import { logScale } from '../../shared/chart/log-scale';
 import { pathThrough } from '../../shared/chart/path-through';
 import { element, setText, svg } from '../../shared/panels/element';
 import { lineKey } from '../../shared/panels/line-key';
 import { createNumberTable, fillHead } from '../../shared/panels/number-table';
+import { createPlot, levelMarks, plotText, uprightTitle } from '../../shared/panels/plot-parts';
 import { digits } from '../../shared/panels/quantity';
+import { addSection, folded, noteLine } from '../../shared/panels/section';
+import { numberCell, rowOf } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
-import {
-  type DeformState,
-  type DeformStep,
-  type PaneState,
-  TERMS,
-  type Term,
-} from '../state/deform-state';
+import { type DeformState, type PaneState, TERMS, type Term } from '../state/deform-state';
 import { titleOf } from '../state/fabric-choice';
-import { triple } from '../state/fabric-geometry';
+import { perTerm } from '../state/fabric-geometry';
 import { TERM_TITLES } from './term-words';
 
 const WIDTH = 360;
@@ -34,21 +32,16 @@ const WIDE_RATIO = 30;
 /** More steps than this have no number of their own on the axis. */
 const MOST_LABELS = 8;
 
-/** Energy that each step left: the weighted terms add up to the energy. */
-export interface WeightedStep {
-  energy: number;
-  terms: Record<Term, number>;
-  relative_step: number;
-  linearised: boolean;
-}
+type Steps = PaneState['steps'];
 
+/** Energy that each step left: the weighted terms add up to the energy. */
 export function weightedSteps(
   { steps, weights }: Pick<PaneState, 'steps' | 'weights'>,
   counts: Record<Term, boolean>,
-): WeightedStep[] {
-  return steps.map((step: DeformStep) => ({
+): Steps {
+  return steps.map((step) => ({
     ...step,
-    terms: triple((term) => (counts[term] ? weights[term] * step.terms[term] : 0)),
+    terms: perTerm((term) => (counts[term] ? weights[term] * step.terms[term] : 0)),
   }));
 }
 
@@ -60,7 +53,7 @@ export function isWide(energies: readonly number[]): boolean {
 }
 
 /** "After 12 steps, 3 of them linearised anew, the energy is 1.2, of 3.4 after the first." */
-export function curveWords(name: string, steps: readonly WeightedStep[], pane: PaneState): string {
+export function curveWords(name: string, steps: Steps, pane: PaneState): string {
   const [first] = steps;
   const last = steps.at(-1);
   if (!first || !last) return 'No step yet: pull a handle.';
@@ -96,7 +89,7 @@ function verticalAxis(energies: readonly number[]): VerticalAxis {
   };
 }
 
-function draw(root: SVGElement, steps: readonly WeightedStep[]): void {
+function draw(root: SVGElement, steps: Steps): void {
   const energies = steps.flatMap(({ energy, terms }) => [energy, ...TERMS.map((t) => terms[t])]);
   const { ticks, y } = verticalAxis(energies);
   const width = WIDTH - LEFT - RIGHT;
@@ -105,30 +98,17 @@ function draw(root: SVGElement, steps: readonly WeightedStep[]): void {
   const parts: SVGElement[] = [];
   for (const tick of ticks) {
     const at = y(tick) ?? HEIGHT - BOTTOM;
-    parts.push(
-      svg('line', { x1: LEFT, y1: at, x2: WIDTH - RIGHT, y2: at, class: 'grid-minor' }),
-      svg('text', { x: LEFT - 6, y: at + 4, class: 'tick tick-y' }, digits(tick, 2)),
-    );
+    parts.push(...levelMarks([LEFT, WIDTH - RIGHT], at, digits(tick, 2), 6));
   }
   const stride = Math.max(1, Math.ceil(steps.length / MOST_LABELS));
   for (let index = 0; index < steps.length; index += stride) {
-    parts.push(
-      svg(
-        'text',
-        { x: xOf(index), y: HEIGHT - BOTTOM + 16, class: 'tick tick-x' },
-        String(index + 1),
-      ),
-    );
+    parts.push(plotText('tick tick-x', xOf(index), HEIGHT - BOTTOM + 16, String(index + 1)));
   }
   parts.push(
-    svg('text', { x: LEFT + width / 2, y: HEIGHT - 6, class: 'axis' }, 'step'),
-    svg(
-      'text',
-      { x: 12, y: HEIGHT / 2, class: 'axis', transform: `rotate(-90 12 ${HEIGHT / 2})` },
-      'energy',
-    ),
+    plotText('axis', LEFT + width / 2, HEIGHT - 6, 'step'),
+    uprightTitle(12, HEIGHT / 2, 'energy'),
   );
-  function curve(kind: string, energyOf: (step: WeightedStep) => number): void {
+  function curve(kind: string, energyOf: (step: Steps[number]) => number): void {
     const points = steps.map((step, index): [number, number] | null => {
       const at = y(energyOf(step));
       return at === null ? null : [xOf(index), at];
@@ -152,57 +132,46 @@ function draw(root: SVGElement, steps: readonly WeightedStep[]): void {
   root.replaceChildren(...parts);
 }
 
-function tableRow(step: WeightedStep, index: number): HTMLElement {
+function tableRow(step: Steps[number], index: number): HTMLElement {
   const numbers = [step.energy, ...TERMS.map((term) => step.terms[term]), step.relative_step];
-  return element(
-    'tr',
-    {},
-    element('th', { scope: 'row' }, String(index + 1)),
-    ...numbers.map((value) => element('td', { class: 'number' }, digits(value))),
+  return rowOf(
+    String(index + 1),
+    ...numbers.map((value) => numberCell(digits(value))),
     element('td', {}, step.linearised ? 'new' : ''),
   );
 }
 
 /** The curve of the chosen pane. */
-export function createEnergyCurve(parent: HTMLElement, store: Store<DeformState>): () => void {
-  const root = svg('svg', {
-    viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
-    class: 'plot energy-plot',
-    'aria-hidden': 'true',
-  });
+export function createEnergyCurve(parent: HTMLElement, store: Store<DeformState>): void {
+  const root = createPlot(WIDTH, HEIGHT, 'energy-plot');
   const words = element('figcaption');
   const legend = element(
     'ul',
-    { class: 'marks curve-keys' },
+    { class: 'marks line-keys' },
     lineKey('curve whole', 'Whole'),
     ...TERMS.map((term) => lineKey(`curve term-${term}`, TERM_TITLES[term])),
   );
   const table = createNumberTable('Steps', 'Energy after each step', 'step-rows');
   fillHead(table, ['Step', 'Energy', ...TERMS.map((term) => TERM_TITLES[term]), 'Move', 'Matrix']);
-  const numbers = element(
-    'details',
+  const numbers = folded(
+    'The same as a table',
     { toggle: () => fill() },
-    element('summary', {}, 'The same as a table'),
-    element(
-      'p',
-      { class: 'note' },
+    noteLine(
       'Energies have no unit. Each term is weighted; the three add up to the energy. Move: how far the points went, as a part of the size of the cloth (RMS).',
     ),
     table.box,
   );
   const figure = element('figure', { class: 'chart' });
   figure.append(legend, root, words);
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'Energy of each step' },
-      element('h2', {}, 'Energy of each step'),
-      figure,
-      numbers,
-    ),
+  addSection(
+    parent,
+    'Energy of each step',
+    element('h2', {}, 'Energy of each step'),
+    figure,
+    numbers,
   );
 
-  let steps: WeightedStep[] = [];
+  let steps: Steps = [];
 
   function fill(): void {
     if (numbers.open) table.rows.replaceChildren(...steps.map(tableRow));
@@ -210,7 +179,7 @@ export function createEnergyCurve(parent: HTMLElement, store: Store<DeformState>
 
   let drawn: PaneState | undefined;
   let counted: Record<Term, boolean> | undefined;
-  return watch(store, ['panes', 'chosen', 'terms'], ({ panes, chosen, terms }) => {
+  watch(store, ['panes', 'chosen', 'terms'], ({ panes, chosen, terms }) => {
     const pane = panes[chosen];
     if (!pane || (pane === drawn && terms === counted)) return;
     drawn = pane;

@@ -3,6 +3,7 @@ import { choice, element, field, setText } from '../../shared/panels/element';
 import { createObjPicker } from '../../shared/panels/obj-picker';
 import { createObjUnit, ownMeshWords } from '../../shared/panels/obj-unit';
 import { createReading } from '../../shared/panels/reading';
+import { addSection, noteLine } from '../../shared/panels/section';
 import type { ObjUnit } from '../../shared/state/obj-file';
 import { type Store, watch } from '../../shared/state/store';
 import { EXPERIMENTS, OWN } from '../state/experiments';
@@ -33,17 +34,17 @@ export function createExperimentPanel(
     /** Gives up the file that is being read. */
     cancel(): void;
   },
-): () => void {
+): void {
   const options = [
     ...EXPERIMENTS.map(({ id, title }) => ({ value: id, title })),
     { value: OWN, title: 'Your OBJ' },
   ];
   const chosen = choice(options, (id) => actions.openExperiment(id));
   const caption = element('p', { class: 'caption' });
-  const size = element('p', { class: 'note' });
-  const section = element(
-    'section',
-    { 'aria-label': 'Experiment' },
+  const size = noteLine();
+  const section = addSection(
+    parent,
+    'Experiment',
     field('Experiment', chosen.control),
     caption,
     size,
@@ -51,10 +52,9 @@ export function createExperimentPanel(
   const unit = createObjUnit((value) => actions.setUnit(value));
   const reading = createReading(() => actions.cancel());
   section.append(unit.box);
-  const closePicker = createObjPicker(section, actions);
+  createObjPicker(section, actions);
   section.append(reading.box);
-  parent.append(section);
-  const stop = watch(store, ['experiment', 'cloth', 'objName', 'reading'], (state) => {
+  watch(store, ['experiment', 'cloth', 'objName', 'reading'], (state) => {
     chosen.select(state.experiment);
     chosen.limit((id) => (id === OWN && !state.objName ? 'choose a file below' : null));
     setText(caption, captionOf(state));
@@ -63,9 +63,4 @@ export function createExperimentPanel(
     unit.select(state.objUnit);
     reading.show(state.reading);
   });
-  return () => {
-    stop();
-    closePicker();
-    section.remove();
-  };
 }

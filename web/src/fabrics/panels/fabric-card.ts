@@ -1,4 +1,5 @@
 // One fabric: its use, what to expect of it, its weights and measurements, its physical numbers.
+
 import { type FabricRecord, fabricNamed, fabrics, sources } from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { checkBox, element, setText } from '../../shared/panels/element';
@@ -9,8 +10,11 @@ import {
   sourceList,
 } from '../../shared/panels/fabric-quantities';
 import { digits, percent } from '../../shared/panels/quantity';
+import { folded, noteLine } from '../../shared/panels/section';
+import { heading, numberCell, rowOf, tableOf } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
-import { type DeformState, type OwnFabric, TERMS, type Triple } from '../state/deform-state';
+import type { FitAnswer, TermNumbers } from '../bindings/deform-module';
+import { type DeformState, TERMS } from '../state/deform-state';
 import { titleOf } from '../state/fabric-choice';
 import { EXPECTATIONS } from '../state/fabric-expectations';
 import { geometryOf } from '../state/fabric-geometry';
@@ -28,11 +32,11 @@ export function misprint(recomputed: number, published: number): string | null {
 }
 
 interface Shown {
-  weights: Triple;
-  measures: Triple;
-  normalised: Triple;
+  weights: TermNumbers;
+  measures: TermNumbers;
+  normalised: TermNumbers;
   /** Null when nobody printed any. */
-  published: Triple | null;
+  published: TermNumbers | null;
 }
 
 function shownOf(fabric: FabricRecord): Shown {
@@ -46,71 +50,32 @@ export function stiffnessSentence(fabric: FabricRecord): string {
   return `In forces, its bending rigidity is ${quantityText(fabric, key)} (${fabric[key].confidence}): number ${rankOf(fabric, key)} of ${fabrics.length} from the stiffest.`;
 }
 
-function headings(...titles: string[]): HTMLElement {
-  const cells = titles.map((title, column) =>
-    element('th', { scope: 'col', class: column > 0 ? 'number' : '' }, title),
-  );
-  return element('thead', {}, element('tr', {}, ...cells));
-}
-
 function weightRows({ weights, published }: Shown): HTMLElement[] {
   return TERMS.map((term) => {
     const printed = published ? misprint(weights[term], published[term]) : null;
     const exact =
       printed === null ? percent(weights[term]) : `${(100 * weights[term]).toFixed(3)} %`;
-    return element(
-      'tr',
-      {},
-      element(
-        'th',
-        { scope: 'row' },
-        termKey(term),
-        TERM_TITLES[term],
-        element('small', {}, `avoids ${TERM_COSTS[term]}`),
-      ),
-      element('td', { class: 'number' }, exact),
-      element('td', { class: 'number' }, published ? (printed ?? 'same') : '–'),
+    return rowOf(
+      [termKey(term), TERM_TITLES[term], element('small', {}, `avoids ${TERM_COSTS[term]}`)],
+      numberCell(exact),
+      numberCell(published ? (printed ?? 'same') : '–'),
     );
   });
 }
 
 function measureRows({ measures, normalised }: Shown): HTMLElement[] {
   return TERMS.map((term) =>
-    element(
-      'tr',
-      {},
-      element(
-        'th',
-        { scope: 'row' },
-        TERM_TITLES[term],
-        element('small', {}, TERM_MEASUREMENTS[term]),
-      ),
-      element('td', { class: 'number' }, measures[term].toFixed(4)),
-      element('td', { class: 'number' }, digits(normalised[term], 2)),
+    rowOf(
+      [TERM_TITLES[term], element('small', {}, TERM_MEASUREMENTS[term])],
+      numberCell(measures[term].toFixed(4)),
+      numberCell(digits(normalised[term], 2)),
     ),
   );
 }
 
-function details(summary: string, ...content: Node[]): HTMLElement {
-  return element('details', {}, element('summary', {}, summary), ...content);
-}
-
-function table(kind: string, caption: string, ...content: HTMLElement[]): HTMLElement {
-  return element(
-    'table',
-    { class: kind },
-    element('caption', { class: 'unseen' }, caption),
-    ...content,
-  );
-}
-
 function termTable(caption: string, titles: string[], rows: HTMLElement[]): HTMLElement {
-  return table(
-    'quantities term-table',
-    caption,
-    headings(...titles),
-    element('tbody', {}, ...rows),
-  );
+  const body = element('tbody', {}, ...rows);
+  return tableOf('quantities term-table', caption, heading(...titles), body);
 }
 
 function weightTable(shown: Shown): HTMLElement {
@@ -121,37 +86,32 @@ const WEIGHTS_NOTE =
   'Weights are shares: they tell what this fabric trades for what, and not how stiff it is beside another.';
 
 function measurementBox(shown: Shown): HTMLElement {
-  return details(
+  return folded(
     'What was measured',
+    {},
     termTable('Geometric measurements', ['Test', 'Ratio', 'Normalised'], measureRows(shown)),
-    element(
-      'p',
-      { class: 'note' },
+    noteLine(
       'The weights are the shares of the normalised values. How these follow from the ratios is not printed: presumably from the spread of the twenty tests of each fabric.',
     ),
-    element('p', { class: 'note' }, `Source: ${sources.SEED ?? ''}.`),
+    noteLine(`Source: ${sources.SEED ?? ''}.`),
   );
 }
 
 function physicalBox(fabric: FabricRecord): HTMLElement {
-  return details(
+  const body = element('tbody', {}, ...quantityRows(fabric));
+  return folded(
     'Physical numbers',
-    element(
-      'p',
-      { class: 'note' },
+    {},
+    noteLine(
       `For the fabric in motion; the shape here does not use them. Taken as: ${fabric.assumed_construction}.`,
     ),
-    table(
-      'quantities',
-      'Physical numbers of the fabric',
-      element('tbody', {}, ...quantityRows(fabric)),
-    ),
-    details('Where the numbers come from', sourceList(fabric)),
-    details('What the words mean', quantityMeanings()),
+    tableOf('quantities', 'Physical numbers of the fabric', body),
+    folded('Where the numbers come from', {}, sourceList(fabric)),
+    folded('What the words mean', {}, quantityMeanings()),
   );
 }
 
-function ownShown({ weights, normalised }: OwnFabric, measures: Triple): Shown {
+function ownShown({ weights, normalised }: FitAnswer, measures: TermNumbers): Shown {
   return { weights, measures, normalised, published: null };
 }
 
@@ -164,12 +124,12 @@ export function createFabricCard(
   parent: HTMLElement,
   store: Store<DeformState>,
   { setWeightsFrom }: CardActions,
-): () => void {
-  const swatch = element('span', { class: 'fabric-swatch', 'aria-hidden': 'true' });
+): void {
+  const swatch = element('span', { class: 'swatch', 'aria-hidden': 'true' });
   const name = element('h2', {});
   const use = element('span', { class: 'note' });
   const expectation = element('p', { class: 'caption' });
-  const stiffness = element('p', { class: 'note' });
+  const stiffness = noteLine();
   const { bar, show } = createWeightBar();
   const { input: printed, label: printedLine } = checkBox(
     'Use the weights as they are printed',
@@ -199,14 +159,14 @@ export function createFabricCard(
     const shown = shownOf(fabric);
     const parts = [
       weightTable(shown),
-      element('p', { class: 'note' }, WEIGHTS_NOTE),
+      noteLine(WEIGHTS_NOTE),
       measurementBox(shown),
       physicalBox(fabric),
     ];
     body.replaceChildren(...parts);
   }
 
-  function showOwn(own: OwnFabric, measures: Triple): void {
+  function showOwn(own: FitAnswer, measures: TermNumbers): void {
     setText(use, 'measured by you');
     setText(
       expectation,
@@ -214,15 +174,11 @@ export function createFabricCard(
     );
     show(own.weights);
     const shown = ownShown(own, measures);
-    body.replaceChildren(
-      weightTable(shown),
-      element('p', { class: 'note' }, WEIGHTS_NOTE),
-      measurementBox(shown),
-    );
+    body.replaceChildren(weightTable(shown), noteLine(WEIGHTS_NOTE), measurementBox(shown));
   }
 
   let drawn = '';
-  return watch(store, ['panes', 'chosen', 'weightsFrom', 'ownFabric'], (state) => {
+  watch(store, ['panes', 'chosen', 'weightsFrom', 'ownFabric'], (state) => {
     const { panes, chosen, weightsFrom, ownFabric } = state;
     const fabric = panes[chosen]?.fabric;
     if (!fabric) return;

@@ -9,6 +9,7 @@ import {
   setText,
 } from '../../shared/panels/element';
 import { quantityText } from '../../shared/panels/fabric-quantities';
+import { addSection, noteLine } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import { type DeformState, type FabricChoice, TERMS } from '../state/deform-state';
 import { type Comparison, isSame, titleOf, withShown, withToggled } from '../state/fabric-choice';
@@ -84,7 +85,7 @@ export function cellAfter(key: string, { row, column }: Cell, nRows: number): Ce
 
 function createRow({ id, name_en: name }: FabricRecord, press: () => void, toggle: () => void) {
   const { front, back } = lookOf(id);
-  const swatch = element('span', { class: 'fabric-swatch', 'aria-hidden': 'true' });
+  const swatch = element('span', { class: 'swatch', 'aria-hidden': 'true' });
   swatch.style.background = `linear-gradient(135deg, ${front} 50%, ${back} 50%)`;
   const { bar, show: showWeights } = createWeightBar();
   const words = element('span', { class: 'unseen' });
@@ -221,7 +222,7 @@ export function createFabricGallery(
   parent: HTMLElement,
   store: Store<DeformState>,
   actions: GalleryActions,
-): () => void {
+): void {
   const { press, toggle } = createChoices(store, actions, (sentence) => {
     setText(refusal, sentence);
     if (sentence !== '') render();
@@ -233,7 +234,7 @@ export function createFabricGallery(
   });
   const { grid, leaveBoxes, order: orderRows } = createGrid(rows);
   const order = choiceOf(ORDER_TITLES, actions.setOrder);
-  const orderWords = element('p', { class: 'note' });
+  const orderWords = noteLine();
   const legend = element(
     'ul',
     { class: 'marks', 'aria-label': 'Bars' },
@@ -242,20 +243,18 @@ export function createFabricGallery(
   const all = buttonOf('All fifteen at once', () => actions.showAll(!store.get().gallery), {
     class: 'wide',
   });
-  const hint = element('p', { class: 'note' });
+  const hint = noteLine();
   const refusal = element('p', { class: 'note', role: 'status' });
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'Choice of fabrics' },
-      all,
-      hint,
-      field('Order', order.control),
-      orderWords,
-      legend,
-      grid,
-      refusal,
-    ),
+  addSection(
+    parent,
+    'Choice of fabrics',
+    all,
+    hint,
+    field('Order', order.control),
+    orderWords,
+    legend,
+    grid,
+    refusal,
   );
 
   let ordered: FabricOrder = 'source';
@@ -279,7 +278,7 @@ export function createFabricGallery(
 
   // Numbers of a pane change with every frame of a drag, this list does not.
   let drawn = '';
-  return watch(store, ['panes', 'chosen', 'gallery', 'weightsFrom', 'order'], (state) => {
+  watch(store, ['panes', 'chosen', 'gallery', 'weightsFrom', 'order'], (state) => {
     const { panes, chosen, gallery, weightsFrom } = state;
     const names = panes.map(({ fabric }) => titleOf(fabric));
     const text = JSON.stringify([names, chosen, gallery, weightsFrom, state.order]);

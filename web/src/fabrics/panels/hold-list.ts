@@ -1,6 +1,7 @@
 // Every pin and handle: by keys it is moved, and by a press let go.
 import type { Triple } from '../../shared/bindings/geometry';
 import { button, element } from '../../shared/panels/element';
+import { addSection, noteLine } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import type { FabricsState } from '../state/fabrics-state';
 import type { Hold } from '../state/holds';
@@ -52,20 +53,18 @@ export function createHoldList(
   parent: HTMLElement,
   store: Store<FabricsState>,
   actions: HoldActions,
-): () => void {
+): void {
   const lists = {
     handle: element('ul', { class: 'holds' }),
     pin: element('ul', { class: 'holds' }),
   };
   const heads = { handle: element('h3', {}, 'Handles'), pin: element('h3', {}, 'Pins') };
-  const none = element('p', { class: 'note' }, 'Nothing holds the cloth: it lies as it rests.');
+  const none = noteLine('Nothing holds the cloth: it lies as it rests.');
   const reset = button('Pins and handles as at first', actions.resetHolds, { class: 'wide' });
-  const section = element(
-    'section',
-    { 'aria-label': 'Pins and handles' },
-    element(
-      'p',
-      { class: 'note' },
+  const section = addSection(
+    parent,
+    'Pins and handles',
+    noteLine(
       'A handle is what a hand pulls, a pin what stays. Each holds all cloth within 5 % of its size.',
     ),
     heads.handle,
@@ -75,7 +74,6 @@ export function createHoldList(
     none,
     reset,
   );
-  parent.append(section);
 
   /** A list that is made anew would lose the focus: it goes to the button that took its place. */
   function remake(kind: Hold['kind'], rows: HTMLElement[]): void {
@@ -87,7 +85,7 @@ export function createHoldList(
   }
 
   let listed = '';
-  const stop = watch(store, ['pins', 'handles'], (state) => {
+  watch(store, ['pins', 'handles'], (state) => {
     const holds = state.holds;
     const names = holds.map(({ kind, name }) => `${kind} ${name}`).join('\n');
     if (names === listed) return; // a move is no reason to take the focus away
@@ -102,8 +100,4 @@ export function createHoldList(
     }
     none.hidden = holds.length > 0;
   });
-  return () => {
-    stop();
-    section.remove();
-  };
 }

@@ -1,15 +1,13 @@
 // Three measurements of a visitor's own fabric, and what the measured ones make of them.
+
 import { fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
 import { button, element, field, setText } from '../../shared/panels/element';
 import { digits, percent } from '../../shared/panels/quantity';
+import { addSection, folded, noteLine } from '../../shared/panels/section';
+import { heading, numberCell, rowOf, tableOf } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
-import {
-  type DeformState,
-  type OwnFabric,
-  TERMS,
-  type Term,
-  type Triple,
-} from '../state/deform-state';
+import type { FitAnswer, TermNumbers } from '../bindings/deform-module';
+import { type DeformState, TERMS, type Term } from '../state/deform-state';
 import { LARGEST_RATIO } from '../state/fabric-choice';
 import { errorOfMean, geometryOf, measuredRange } from '../state/fabric-geometry';
 import { TERM_MEASUREMENTS, TERM_TITLES } from './term-words';
@@ -17,9 +15,9 @@ import { createWeightBar, termKey } from './weight-bar';
 
 export interface OwnFabricActions {
   /** Fits weights to these; asked for with every change. */
-  measure(measures: Triple): void;
+  measure(measures: TermNumbers): void;
   /** Shows the own fabric in the chosen pane. */
-  show(measures: Triple): void;
+  show(measures: TermNumbers): void;
   /** Closes the pane that shows it. */
   hide(): void;
 }
@@ -44,8 +42,8 @@ export function readMeasure(term: Term, text: string): number | string {
 
 /** "Your stretch of 1.3000 is outside …"; one sentence for each that was clamped. */
 export function clampedWords(
-  { clamped, measured_range: ranges }: OwnFabric,
-  measures: Triple,
+  { clamped, measured_range: ranges }: FitAnswer,
+  measures: TermNumbers,
 ): string[] {
   return clamped.map((term) => {
     const [low, high] = ranges[term];
@@ -60,7 +58,7 @@ const SAME_ERROR = 1e-3;
 /** How far each weight is to be trusted. */
 export function trustWords({
   leave_one_out_error,
-}: Pick<OwnFabric, 'leave_one_out_error'>): string[] {
+}: Pick<FitAnswer, 'leave_one_out_error'>): string[] {
   return TERMS.map((term) => {
     const title = TERM_TITLES[term];
     const error = digits(leave_one_out_error[term], 2);
@@ -100,11 +98,6 @@ function measureField(term: Term, onInput: () => void) {
   };
 }
 
-/** A table's head cell. */
-function headCell(title: string, kind = ''): HTMLElement {
-  return element('th', kind === '' ? { scope: 'col' } : { scope: 'col', class: kind }, title);
-}
-
 /** Weights that the measured fabrics suggest for the measures, and how far they are to be trusted. */
 function createResult(showIt: () => void) {
   const { bar, show: showWeights } = createWeightBar();
@@ -112,39 +105,25 @@ function createResult(showIt: () => void) {
   const clamped = element('p', { class: 'field-error' });
   const trust = element('ul', { class: 'plain-list note' });
   const rows = element('tbody');
-  const heads = [headCell('Term'), headCell('Normalised', 'number'), headCell('Weight', 'number')];
-  const table = element(
-    'table',
-    { class: 'quantities' },
-    element('caption', { class: 'unseen' }, 'Weights of your fabric'),
-    element('thead', {}, element('tr', {}, ...heads)),
-    rows,
-  );
+  const heads = heading('Term', 'Normalised', 'Weight');
+  const table = tableOf('quantities', 'Weights of your fabric', heads, rows);
   const note = `A guess from ${fabrics.length} fabrics, whose measurements hardly tell their weights. Leaving each measured fabric out in turn, the curve through the others misses its normalised value (0 to 1):`;
-  const trustBox = element(
-    'details',
-    {},
-    element('summary', {}, 'How far to trust it'),
-    element('p', { class: 'note' }, note),
-    trust,
-  );
+  const trustBox = folded('How far to trust it', {}, noteLine(note), trust);
   const showing = button('Show it', showIt, { class: 'wide' });
   const parts = [summary, bar, table, clamped, trustBox, showing];
   const box = element('div', { class: 'own-result' }, ...parts);
 
-  function row(term: Term, own: OwnFabric): HTMLElement {
-    return element(
-      'tr',
-      {},
-      element('th', { scope: 'row' }, termKey(term), TERM_TITLES[term]),
-      element('td', { class: 'number' }, digits(own.normalised[term], 2)),
-      element('td', { class: 'number' }, percent(own.weights[term])),
+  function row(term: Term, own: FitAnswer): HTMLElement {
+    return rowOf(
+      [termKey(term), TERM_TITLES[term]],
+      numberCell(digits(own.normalised[term], 2)),
+      numberCell(percent(own.weights[term])),
     );
   }
 
   return {
     box,
-    show(own: OwnFabric | null, measures: Triple | null): void {
+    show(own: FitAnswer | null, measures: TermNumbers | null): void {
       box.hidden = !own || !measures;
       if (!own || !measures) return;
       showWeights(own.weights);
@@ -160,7 +139,7 @@ function createResult(showIt: () => void) {
 type MeasureField = ReturnType<typeof measureField>;
 
 /** The three measures, or null while one of them is none. */
-function readMeasures(fields: readonly MeasureField[]): Triple | null {
+function readMeasures(fields: readonly MeasureField[]): TermNumbers | null {
   const values = fields.map(({ term, input }) => readMeasure(term, input.value));
   const [recovery, stretch, bending] = values;
   const areNumbers =
@@ -179,7 +158,7 @@ function tellProblems(fields: readonly MeasureField[], { problem }: DeformState)
 }
 
 /** The own fabric's measures, or for a start those of the chosen one. */
-function firstMeasures({ panes, chosen }: DeformState): { measures: Triple; isOwn: boolean } {
+function firstMeasures({ panes, chosen }: DeformState): { measures: TermNumbers; isOwn: boolean } {
   const own = panes.find(({ fabric }) => fabric.kind === 'own')?.fabric;
   if (own?.kind === 'own') return { measures: own.measures, isOwn: true };
   const { fabric } = panes[chosen] ?? {};
@@ -191,8 +170,8 @@ export function createOwnFabricForm(
   parent: HTMLElement,
   store: Store<DeformState>,
   actions: OwnFabricActions,
-): () => void {
-  let measures: Triple | null = null;
+): void {
+  let measures: TermNumbers | null = null;
 
   function changed(): void {
     measures = readMeasures(fields);
@@ -203,20 +182,19 @@ export function createOwnFabricForm(
   const fields = TERMS.map((term) => measureField(term, changed));
   const result = createResult(() => measures && actions.show(measures));
   const hideIt = button('Take it away', actions.hide, { class: 'wide' });
-  const box = element(
-    'details',
+  const box = folded(
+    'Your own fabric',
     {
       toggle() {
         if (box.open && !measures) changed();
       },
     },
-    element('summary', {}, 'Your own fabric'),
-    element('p', { class: 'note' }, 'Three ratios, measured on a sample of 46 × 40 cm.'),
+    noteLine('Three ratios, measured on a sample of 46 × 40 cm.'),
     ...fields.map((one) => one.box),
     result.box,
     hideIt,
   );
-  parent.append(element('section', { 'aria-label': 'Your own fabric' }, box));
+  addSection(parent, 'Your own fabric', box);
 
   function render(): void {
     const state = store.get();
@@ -231,7 +209,7 @@ export function createOwnFabricForm(
   for (const { term, input } of fields) input.value = String(first.measures[term]);
   box.open = first.isOwn;
   let listed = '';
-  return watch(store, ['ownFabric', 'problem', 'panes', 'gallery'], (state) => {
+  watch(store, ['ownFabric', 'problem', 'panes', 'gallery'], (state) => {
     const { panes, gallery, problem, ownFabric: own } = state;
     // The numbers of a pane change with every frame, the form does not.
     const text = JSON.stringify([panes.map(({ fabric }) => fabric.kind), gallery, problem, own]);

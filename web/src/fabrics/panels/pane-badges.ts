@@ -70,11 +70,11 @@ export function createPaneBadges(
   parent: HTMLElement,
   store: Store<FabricsState>,
   actions: { choose(pane: number): void },
-): { setColumns(nColumns: number): void; close(): void } {
+): { setColumns(nColumns: number): void } {
   const grid = element('div', { class: 'panes' });
   parent.append(grid);
   let badges: ReturnType<typeof createBadge>[] = [];
-  const close = watch(store, ['panes', 'chosen', 'phase', 'order'], (state) => {
+  watch(store, ['panes', 'chosen', 'phase', 'order'], (state) => {
     const { panes, chosen } = state;
     if (badges.length !== panes.length) {
       badges = panes.map((_, index) => createBadge(() => actions.choose(index)));
@@ -84,8 +84,5 @@ export function createPaneBadges(
       badges[index]?.show(pane, index === chosen, state);
     });
   });
-  return {
-    setColumns: (nColumns) => grid.style.setProperty('--columns', String(nColumns)),
-    close,
-  };
+  return { setColumns: (nColumns) => grid.style.setProperty('--columns', String(nColumns)) };
 }

@@ -21,7 +21,7 @@ export function createStageTools(
   parent: HTMLElement,
   store: Store<FabricsState>,
   actions: StageToolActions,
-): () => void {
+): void {
   const tools = createSegments(
     'tool',
     { class: 'segments tool-switch', 'aria-label': 'A press on the cloth' },
@@ -35,7 +35,7 @@ export function createStageTools(
   const wear = button('Carry this fabric over to motion', actions.wear);
   const start = button('Start moving from this shape', actions.start);
   parent.append(tools.control, view, edges.label, wear, start);
-  return watch(store, ['tool', 'edges', 'panes', 'chosen', 'phase'], (state) => {
+  watch(store, ['tool', 'edges', 'panes', 'chosen', 'phase'], (state) => {
     tools.select(state.tool);
     edges.input.checked = state.edges;
     const isOwn = state.panes[state.chosen]?.fabric.kind === 'own';

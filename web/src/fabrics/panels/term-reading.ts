@@ -1,16 +1,13 @@
 // Sentences on the numbers of a shape.
+
 import { element } from '../../shared/panels/element';
 import { digits, percent } from '../../shared/panels/quantity';
+import { addSection } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
-import {
-  type DeformState,
-  type PaneState,
-  TERMS,
-  type Term,
-  type Triple,
-} from '../state/deform-state';
+import type { TermNumbers } from '../bindings/deform-module';
+import { type DeformState, type PaneState, TERMS, type Term } from '../state/deform-state';
 import { isSame, titleOf } from '../state/fabric-choice';
-import { triple } from '../state/fabric-geometry';
+import { perTerm } from '../state/fabric-geometry';
 import { TERM_TITLES } from './term-words';
 
 type Counts = Record<Term, boolean>;
@@ -45,7 +42,7 @@ const NOUNS: Record<Term, string> = {
 export const SPIKE =
   'With almost no weight on stretch, and little on bending, a pulled handle makes a spike: those are the measured weights, not a fault.';
 
-function sum(values: Triple): number {
+function sum(values: TermNumbers): number {
   return TERMS.reduce((total, term) => total + values[term], 0);
 }
 
@@ -65,7 +62,7 @@ function termSentence(term: Term, { terms, weights }: PaneState, counts: Counts)
 
 /** Names the term that most of the energy is. */
 function energySentence(pane: PaneState, counts: Counts): string {
-  const paid = triple((term) => (counts[term] ? pane.weights[term] * pane.terms[term] : 0));
+  const paid = perTerm((term) => (counts[term] ? pane.weights[term] * pane.terms[term] : 0));
   const total = sum(paid);
   const [most] = [...TERMS].sort((a, b) => paid[b] - paid[a]);
   if (!most || total <= 0) return '';
@@ -73,7 +70,7 @@ function energySentence(pane: PaneState, counts: Counts): string {
 }
 
 /** True of silk alone: spandex and nylon hardly resist stretch either, but bend round. */
-export function isSpiky({ stretch, bending }: Triple): boolean {
+export function isSpiky({ stretch, bending }: TermNumbers): boolean {
   return stretch < SPIKY_STRETCH && bending < SPIKY_BENDING;
 }
 
@@ -102,18 +99,11 @@ export function comparedReading(panes: readonly PaneState[]): string[] {
 }
 
 /** The sentences for the chosen pane, and for how those side by side differ. */
-export function createTermReading(parent: HTMLElement, store: Store<DeformState>): () => void {
+export function createTermReading(parent: HTMLElement, store: Store<DeformState>): void {
   const list = element('ul', { class: 'plain-list' });
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'What the numbers say' },
-      element('h2', {}, 'What the numbers say'),
-      list,
-    ),
-  );
+  addSection(parent, 'What the numbers say', element('h2', {}, 'What the numbers say'), list);
   let shown = '';
-  return watch(store, ['panes', 'chosen', 'terms'], ({ panes, chosen, terms }) => {
+  watch(store, ['panes', 'chosen', 'terms'], ({ panes, chosen, terms }) => {
     const pane = panes[chosen];
     const sentences = pane ? [...paneReading(pane, terms), ...comparedReading(panes)] : [];
     const text = sentences.join('\n');

@@ -1,5 +1,6 @@
 // Switches for the form of the energy and for its terms, each with what that changes.
 import { element, setText } from '../../shared/panels/element';
+import { addSection } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import { type DeformState, type EnergyForm, TERMS, type Term } from '../state/deform-state';
 import { TERM_TITLES } from './term-words';
@@ -75,7 +76,7 @@ export function createTermSwitches(
   parent: HTMLElement,
   store: Store<DeformState>,
   { setForm, setTerms }: SwitchActions,
-): () => void {
+): void {
   const forms = FORMS.map((one) => formOption(one, () => setForm(one.form)));
   const refusal = element('p', { class: 'field-error', role: 'status' });
   const terms = TERMS.map((term) =>
@@ -95,24 +96,22 @@ export function createTermSwitches(
     }
   }
 
-  parent.append(
+  addSection(
+    parent,
+    'Energy',
     element(
-      'section',
-      { 'aria-label': 'Energy' },
-      element(
-        'fieldset',
-        { class: 'field' },
-        element('legend', {}, 'Form of the energy'),
-        ...forms.map(({ line }) => line),
-      ),
-      element(
-        'fieldset',
-        { class: 'field' },
-        element('legend', {}, 'Terms that count'),
-        ...terms.map(({ line }) => line),
-        refusal,
-      ),
+      'fieldset',
+      { class: 'field' },
+      element('legend', {}, 'Form of the energy'),
+      ...forms.map(({ line }) => line),
+    ),
+    element(
+      'fieldset',
+      { class: 'field' },
+      element('legend', {}, 'Terms that count'),
+      ...terms.map(({ line }) => line),
+      refusal,
     ),
   );
-  return watch(store, ['form', 'terms'], render);
+  watch(store, ['form', 'terms'], render);
 }

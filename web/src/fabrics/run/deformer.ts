@@ -1,5 +1,6 @@
 // Finds the shapes that the view of fabrics shows: turns changes of the state and of the hand into
 // questions to the worker, and answers into state and frames.
+
 import { describe, type Failure, inputFailure } from '../../shared/bindings/answers';
 import { frameViews } from '../../shared/bindings/frame';
 import type { Triple } from '../../shared/bindings/geometry';
@@ -10,13 +11,14 @@ import type { StartShape } from '../../shared/page/view';
 import { createClock } from '../../shared/state/clock';
 import { Latest } from '../../shared/state/latest';
 import {
-  type ObjFile,
   type ObjUnit,
-  oddSize,
+  type OwnMesh,
   openObjFile,
+  ownMeshState,
   textInMetres,
 } from '../../shared/state/obj-file';
 import type { Store } from '../../shared/state/store';
+import { placeOf } from '../../shared/state/vectors';
 import { answerOf } from '../../shared/workers/asked';
 import type { TermNumbers } from '../bindings/deform-module';
 import type { PaneState } from '../state/deform-state';
@@ -32,7 +34,7 @@ import {
   panesFor,
   settlingPanes,
 } from '../state/fabrics-state';
-import { holdsOf, placeOf } from '../state/holds';
+import { holdsOf } from '../state/holds';
 import type {
   DeformFrame,
   FittedMessage,
@@ -62,11 +64,6 @@ interface Opening {
   own: OwnMesh | null;
 }
 
-interface OwnMesh {
-  file: ObjFile;
-  unit: ObjUnit;
-}
-
 type Shown = Pick<
   FabricsState,
   'compared' | 'gallery' | 'order' | 'chosen' | 'terms' | 'form' | 'weightsFrom'
@@ -85,10 +82,6 @@ const UNMOVED: Pick<FabricsLink, 'moved' | 'released'> = { moved: [], released: 
 async function meshText({ experiment, own }: Opening): Promise<string> {
   if (own) return textInMetres(own.file, own.unit);
   return experiment.meshUrl === null ? '' : (await fetched(experiment.meshUrl)).text();
-}
-
-function ownState({ file, unit }: OwnMesh) {
-  return { objName: file.name, objUnit: unit, objOdd: oddSize(file, unit) };
 }
 
 export class Deformer {
@@ -271,7 +264,7 @@ export class Deformer {
     this.store.set({
       phase: 'ready',
       experiment: experiment.id,
-      ...(own ? ownState(own) : {}),
+      ...(own ? ownMeshState(own) : {}),
       reading: null,
       cloth: answer,
       ownHolds,

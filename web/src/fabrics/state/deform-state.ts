@@ -1,42 +1,23 @@
 // State of the view "Fabrics". Only this and the frames travel between its parts.
+
 import type { Failure } from '../../shared/bindings/answers';
+import type { DeformReport, FitAnswer, TermNumbers } from '../bindings/deform-module';
 import type { FabricOrder } from './fabric-order';
 
 export type EnergyForm = 'consistent' | 'published';
 export const TERMS = ['recovery', 'stretch', 'bending'] as const;
 export type Term = (typeof TERMS)[number];
-/** One number for each term: weights, measures or energies. */
-export type Triple = Record<Term, number>;
 
 /** A fabric of the library, or the visitor's own measurements. */
-export type FabricChoice = { kind: 'named'; name: string } | { kind: 'own'; measures: Triple };
-
-/** The fit's answer to the visitor's own measurements. */
-export interface OwnFabric {
-  weights: Triple;
-  normalised: Triple;
-  /** RMS, in normalised measures. */
-  leave_one_out_error: Triple;
-  /** Measures outside the measured range, which were clamped to it. */
-  clamped: Term[];
-  measured_range: Record<Term, [number, number]>;
-  nearest: string;
-}
-
-export interface DeformStep {
-  energy: number;
-  terms: Triple;
-  relative_step: number;
-  linearised: boolean;
-}
+export type FabricChoice = { kind: 'named'; name: string } | { kind: 'own'; measures: TermNumbers };
 
 /** One pane: one fabric's shape under the common hold. */
 export interface PaneState {
   fabric: FabricChoice;
-  weights: Triple;
+  weights: TermNumbers;
   energy: number;
-  terms: Triple;
-  steps: DeformStep[];
+  terms: TermNumbers;
+  steps: DeformReport['steps'];
   status: 'dragging' | 'settling' | 'converged' | 'not_converged';
   /** Time of the last update [ms]. */
   updateMs: number;
@@ -62,5 +43,5 @@ export interface DeformState {
   /** Pane whose card and energy curve are shown. */
   chosen: number;
   problem: Failure | null;
-  ownFabric: OwnFabric | null;
+  ownFabric: FitAnswer | null;
 }

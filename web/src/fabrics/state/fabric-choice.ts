@@ -1,6 +1,8 @@
 // Fabrics that are shown side by side, and changes of that list.
+
 import { fabricNamed } from '../../shared/fabric/fabric-data';
-import type { FabricChoice, OwnFabric, Triple } from './deform-state';
+import type { FitAnswer, TermNumbers } from '../bindings/deform-module';
+import type { FabricChoice } from './deform-state';
 import { geometryOf } from './fabric-geometry';
 
 /** So many panes fit beside each other. */
@@ -30,8 +32,8 @@ export function isSame(a: FabricChoice, b: FabricChoice): boolean {
 export function weightsOf(
   choice: FabricChoice,
   from: 'recomputed' | 'published',
-  own: OwnFabric | null,
-): Triple | null {
+  own: FitAnswer | null,
+): TermNumbers | null {
   if (choice.kind === 'own') return own?.weights ?? null;
   return geometryOf(fabricNamed(choice.name))[from];
 }

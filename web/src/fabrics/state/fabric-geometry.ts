@@ -1,8 +1,9 @@
 // Measurements of the shapes that each fabric takes, and the weights that follow from it.
-import { type FabricRecord, fabrics, type SpelledTerm } from '../../shared/fabric/fabric-data';
-import { TERMS, type Term, type Triple } from './deform-state';
 
-export function triple(of: (term: Term) => number): Triple {
+import { type FabricRecord, fabrics, type SpelledTerm } from '../../shared/fabric/fabric-data';
+import { TERMS, type Term } from './deform-state';
+
+export function perTerm<Value>(of: (term: Term) => Value): Record<Term, Value> {
   return { recovery: of('recovery'), stretch: of('stretch'), bending: of('bending') };
 }
 
@@ -13,17 +14,17 @@ const SPELLED: Record<Term, SpelledTerm> = {
 };
 
 export function geometryOf({ seed_table: row }: FabricRecord) {
-  const normalised = triple((term) => row[`vn_${SPELLED[term]}`]);
+  const normalised = perTerm((term) => row[`vn_${SPELLED[term]}`]);
   const sum = TERMS.reduce((total, term) => total + normalised[term], 0);
   return {
     /** Ratios, v. */
-    measures: triple((term) => row[`v_${SPELLED[term]}`]),
+    measures: perTerm((term) => row[`v_${SPELLED[term]}`]),
     /** v', within [0, 1]. */
     normalised,
     /** The shares of v': what the source means. They add up to one. */
-    recomputed: triple((term) => normalised[term] / sum),
+    recomputed: perTerm((term) => normalised[term] / sum),
     /** The source's weights as printed, with its slips. */
-    published: triple((term) => row[`weight_${SPELLED[term]}_percent`] / 100),
+    published: perTerm((term) => row[`weight_${SPELLED[term]}_percent`] / 100),
   };
 }
 

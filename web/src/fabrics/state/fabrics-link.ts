@@ -1,10 +1,11 @@
 // The view of fabrics to a link and back: experiment, fabrics, terms, and what was moved by hand.
-import type { Triple as Vector } from '../../shared/bindings/geometry';
+import type { Triple } from '../../shared/bindings/geometry';
 import { fabrics } from '../../shared/fabric/fabric-data';
 import { createLinkReader, oneOf, slug } from '../../shared/state/link-reader';
 import { type DeformState, type FabricChoice, TERMS, type Term } from './deform-state';
 import { EXPERIMENTS, OWN } from './experiments';
 import { LARGEST_RATIO, MOST_COMPARED, titleOf } from './fabric-choice';
+import { perTerm } from './fabric-geometry';
 import { type FabricOrder, ORDERS } from './fabric-order';
 import type { FabricsLink, FabricsState, LinkedHold } from './fabrics-state';
 import { type HeldCloth, type Hold, holdAt } from './holds';
@@ -39,7 +40,7 @@ function numbersIn(text: string | undefined): number[] {
   return (text ?? '').split(',').map((part) => (part.trim() === '' ? Number.NaN : Number(part)));
 }
 
-function vectorIn(text: string | undefined): Vector | undefined {
+function vectorIn(text: string | undefined): Triple | undefined {
   const [x, y, z, ...rest] = numbersIn(text);
   if (x === undefined || y === undefined || z === undefined || rest.length > 0) return undefined;
   return [x, y, z].every(Number.isFinite) ? [x, y, z] : undefined;
@@ -117,9 +118,7 @@ export function encodeFabricsLink(state: FabricsState): string {
 /** The state a link stands for; `problems` says in words what could not be read. */
 export function decodeFabricsLink(hash: string): { link: FabricsLink; problems: string[] } {
   // A plus is a plus here, not a space.
-  const text = hash.replace(/^#/, '').replaceAll('+', '%2B');
-  const { take, finish } = createLinkReader(new URLSearchParams(text));
-  take('view', 'fabrics', 'fabrics', oneOf(['fabrics']));
+  const { take, takeSwitch, finish } = createLinkReader(hash.replaceAll('+', '%2B'), 'fabrics');
   const ids = EXPERIMENTS.map(({ id }) => id);
   const first = ids[0] ?? OWN;
   const experiment = take('scene', first, `${ids.join(', ')} (a link carries no OBJ)`, oneOf(ids));
@@ -137,7 +136,7 @@ export function decodeFabricsLink(hash: string): { link: FabricsLink; problems: 
       return n > 0 && n <= MOST_COMPARED && n === choices?.length ? choices : undefined;
     },
   );
-  const gallery = take('gallery', 'off', 'on or off', oneOf(['on', 'off'])) === 'on';
+  const gallery = takeSwitch('gallery');
   const order = take<FabricOrder>('order', 'source', ORDERS.join(', '), oneOf(ORDERS));
   const form = take<DeformState['form']>(
     'form',
@@ -158,7 +157,7 @@ export function decodeFabricsLink(hash: string): { link: FabricsLink; problems: 
   const nPanes = gallery ? fabrics.length : compared.length;
   const panes = Array.from({ length: nPanes }, (_, pane) => pane);
   const chosen = take('chosen', 0, `0 to ${nPanes - 1}`, oneOf(panes));
-  const edges = take('edges', 'off', 'on or off', oneOf(['on', 'off'])) === 'on';
+  const edges = takeSwitch('edges');
   const moved = take<LinkedHold[]>('held', [], 'names or vertices with moves', (list) => {
     const known = allOf(list, ';', holdIn);
     return known && known.length <= MOST_HOLDS ? known : undefined;
@@ -170,11 +169,7 @@ export function decodeFabricsLink(hash: string): { link: FabricsLink; problems: 
     gallery,
     order,
     form,
-    terms: {
-      recovery: terms.includes('recovery'),
-      stretch: terms.includes('stretch'),
-      bending: terms.includes('bending'),
-    },
+    terms: perTerm((term) => terms.includes(term)),
     weightsFrom,
     chosen,
     edges,
@@ -184,7 +179,7 @@ export function decodeFabricsLink(hash: string): { link: FabricsLink; problems: 
   return { link, problems: finish() };
 }
 
-function isWithinReach({ grasp_m }: HeldCloth, offset: Vector): boolean {
+function isWithinReach({ grasp_m }: HeldCloth, offset: Triple): boolean {
   return Math.hypot(...offset) <= FARTHEST_GRASPS * grasp_m;
 }
 

@@ -1,19 +1,12 @@
 // The whole state of the view of fabrics: what its panel shows, and what only its stage needs.
 import { type Failure, inputFailure } from '../../shared/bindings/answers';
-import type { Triple as Place } from '../../shared/bindings/geometry';
+import type { Triple } from '../../shared/bindings/geometry';
 import { type FabricRecord, fabricNamed } from '../../shared/fabric/fabric-data';
 import type { ObjUnit } from '../../shared/state/obj-file';
-import type { ClothAnswer } from '../bindings/deform-module';
-import {
-  type DeformState,
-  type FabricChoice,
-  type OwnFabric,
-  type PaneState,
-  TERMS,
-  type Triple,
-} from './deform-state';
+import type { ClothAnswer, FitAnswer, TermNumbers } from '../bindings/deform-module';
+import type { DeformState, FabricChoice, PaneState } from './deform-state';
 import { weightsOf } from './fabric-choice';
-import { geometryOf } from './fabric-geometry';
+import { geometryOf, perTerm } from './fabric-geometry';
 import { orderedFabrics } from './fabric-order';
 import type { Hold } from './holds';
 
@@ -48,7 +41,7 @@ export interface FabricsState extends DeformState {
 /** How far a hold was moved: one of the experiment by its name, or a visitor's own by its vertex. */
 export interface LinkedHold {
   by: string | { kind: Hold['kind']; vertex: number };
-  offset: Place;
+  offset: Triple;
 }
 
 export interface FabricsLink
@@ -76,15 +69,13 @@ export function heldBy(holds: readonly Hold[]): Pick<FabricsState, 'holds' | 'pi
 }
 
 /** The fabric that a choice looks like. */
-export function recordOf(choice: FabricChoice, own: OwnFabric | null): FabricRecord {
+export function recordOf(choice: FabricChoice, own: FitAnswer | null): FabricRecord {
   return fabricNamed(choice.kind === 'named' ? choice.name : (own?.nearest ?? ''));
 }
 
 /** The weights that enter the energy: those of terms that are switched off are zero. */
-export function countedWeights({ weights }: PaneState, terms: DeformState['terms']): Triple {
-  const counted = { ...weights };
-  for (const term of TERMS) if (!terms[term]) counted[term] = 0;
-  return counted;
+export function countedWeights({ weights }: PaneState, terms: DeformState['terms']): TermNumbers {
+  return perTerm((term) => (terms[term] ? weights[term] : 0));
 }
 
 /** Panes for what is to be shown; a pane that is there keeps its numbers until new ones come. */
@@ -101,7 +92,7 @@ export function panesFor(
   return shown.map((fabric, index): PaneState => {
     const numbers = state.panes[index] ?? {
       energy: Number.NaN,
-      terms: { recovery: Number.NaN, stretch: Number.NaN, bending: Number.NaN },
+      terms: perTerm(() => Number.NaN),
       steps: [],
       updateMs: Number.NaN,
     };

@@ -1,5 +1,7 @@
 // Holds of a deformed cloth: pins and handles, and where each has its vertices.
+
 import type { Triple } from '../../shared/bindings/geometry';
+import { minus, placeOf } from '../../shared/state/vectors';
 import type { ClothAnswer } from '../bindings/deform-module';
 import type { NamedHold } from './deform-state';
 
@@ -15,14 +17,6 @@ export interface Hold extends NamedHold {
 
 /** A cloth as far as holding it goes. */
 export type HeldCloth = Pick<ClothAnswer, 'rest_m' | 'grasp_m'>;
-
-export function placeOf(values: ArrayLike<number>, vertex: number): Triple {
-  return [values[3 * vertex] ?? 0, values[3 * vertex + 1] ?? 0, values[3 * vertex + 2] ?? 0];
-}
-
-function distance(a: Triple, b: Triple): number {
-  return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
 
 /** Middle of where a hold has its vertices [m]. */
 export function middleOf({ base, offset }: Hold): Triple {
@@ -51,7 +45,7 @@ export function holdAt(
   const middle = placeOf(cloth.rest_m, vertex);
   const vertices: number[] = [];
   for (let v = 0; 3 * v < cloth.rest_m.length; ++v) {
-    const isNear = distance(placeOf(cloth.rest_m, v), middle) <= cloth.grasp_m;
+    const isNear = Math.hypot(...minus(placeOf(cloth.rest_m, v), middle)) <= cloth.grasp_m;
     if (isNear && !taken.has(v)) vertices.push(v);
   }
   if (!vertices.includes(vertex)) return null;

@@ -1,9 +1,10 @@
 // Answers each message to the worker of deformed cloth, as a function of the module, of where
 // answers go, and of the clock. The only file that calls delete() on its objects.
 
-import { describe, internalFailure, read } from '../../shared/bindings/answers';
+import { granted, read } from '../../shared/bindings/answers';
 import { FLOATS_PER_VERTEX, frameViews } from '../../shared/bindings/frame';
-import type { Post } from '../../shared/workers/serve';
+import { refusalOf } from '../../shared/bindings/refusals';
+import { ModuleCore, type Post } from '../../shared/workers/serve';
 import {
   type ClothAnswer,
   type DeformationHandle,
@@ -13,7 +14,7 @@ import {
   PROGRESS,
   WAY,
 } from '../bindings/deform-module';
-import type { DeformStatus, FromDeform, ShowMessage, ToDeform } from './deform-protocol';
+import type { DeformFrame, FromDeform, ShowMessage, ToDeform } from './deform-protocol';
 
 /** Work for one pane before the next one, or a message, gets its turn [ms]. */
 const DRAG_SLICE_MS = 16;
@@ -47,10 +48,8 @@ interface Pane {
   buffers: ArrayBuffer[];
 }
 
-type Refusable = Extract<FromDeform, { type: 'refused' }>['what'];
-
 /** Serves one page. Call `receive` with each message, `advance` when told to, `close` at the end. */
-export class DeformCore {
+export class DeformCore extends ModuleCore<DeformModule, ToDeform, FromDeform> {
   private deformation: DeformationHandle | null = null;
   private cloth = -1;
   private nVertices = 0;
@@ -59,12 +58,12 @@ export class DeformCore {
   private next = 0; // the pane whose turn it is
   private isWaiting = false; // its turn is asked for
 
-  /** The payload of an answer, or null when it was refused, which is told. */
-  private granted<Payload>(what: Refusable, text: string): Payload | null {
-    const answer = read<Payload>(text);
-    if (answer.ok) return answer;
-    this.post({ type: 'refused', what, failure: answer }, []);
-    return null;
+  constructor(
+    module: DeformModule,
+    post: Post<FromDeform>,
+    private readonly turns: Turns,
+  ) {
+    super(module, post);
   }
 
   private wake(): void {
@@ -73,7 +72,7 @@ export class DeformCore {
     this.turns.later();
   }
 
-  private statusOf(pane: Pane, report: DeformReport): DeformStatus {
+  private statusOf(pane: Pane, report: DeformReport): DeformFrame['status'] {
     if (pane.stage === 'following') return 'dragging';
     if (pane.stage !== 'done') return 'settling';
     return report.converged ? 'converged' : 'not_converged';
@@ -154,11 +153,8 @@ export class DeformCore {
 
   private open(message: Extract<ToDeform, { type: 'open' }>): void {
     this.deformation ??= new this.module.Deformation(message.fabricsText);
-    const answer = this.granted<ClothAnswer>(
-      'open',
-      this.deformation.open(message.sceneText, message.objText),
-    );
-    if (!answer) return;
+    const text = this.deformation.open(message.sceneText, message.objText);
+    const answer = granted<ClothAnswer>(text);
     this.cloth = message.cloth;
     this.nVertices = answer.n_vertices;
     this.held = new Int32Array(0);
@@ -182,14 +178,10 @@ export class DeformCore {
   }
 
   private show(run: DeformationHandle, { form, weights }: ShowMessage): void {
-    const answer = this.granted<{ fresh: boolean[] }>(
-      'show',
-      run.show(JSON.stringify({ form, weights })),
-    );
-    if (!answer) return;
+    const { fresh } = granted<{ fresh: boolean[] }>(run.show(JSON.stringify({ form, weights })));
     this.post({ type: 'granted', what: 'show' }, []);
     const known = this.panes;
-    this.panes = answer.fresh.map((isFresh, index) => {
+    this.panes = fresh.map((isFresh, index) => {
       const pane = known[index] ?? this.freshPane();
       return isFresh ? { ...this.freshPane(), buffers: pane.buffers } : { ...pane, updateMs: 0 };
     });
@@ -198,7 +190,7 @@ export class DeformCore {
   }
 
   private hold(run: DeformationHandle, vertices: Int32Array, places: Float64Array): void {
-    if (this.granted('hold', run.hold(vertices, places)) === null) return;
+    granted(run.hold(vertices, places));
     this.post({ type: 'granted', what: 'hold' }, []);
     this.held = vertices;
     this.begin('to_settle', true);
@@ -218,13 +210,12 @@ export class DeformCore {
   }
 
   private postSection(run: DeformationHandle, index: number): void {
-    const answer = this.granted<{ cloth: object }>('section', run.clothSection());
-    if (!answer) return;
+    const { cloth: section } = granted<{ cloth: object }>(run.clothSection());
     const positions = run.exactPositions(index).slice();
-    this.post({ type: 'section', section: answer.cloth, positions }, [positions.buffer]);
+    this.post({ type: 'section', section, positions }, [positions.buffer]);
   }
 
-  private handle(message: ToDeform): void {
+  protected handle(message: ToDeform): void {
     if (message.type === 'open') return this.open(message);
     if (!this.deformation) throw new Error(`${message.type} before open`);
     switch (message.type) {
@@ -241,34 +232,12 @@ export class DeformCore {
         return;
       case 'fit': {
         const { measures } = message;
-        const answer = this.granted<FitAnswer>(
-          'fit',
-          this.deformation.fitMeasures(JSON.stringify(measures)),
-        );
-        if (answer) this.post({ type: 'fitted', measures, answer }, []);
+        const answer = granted<FitAnswer>(this.deformation.fitMeasures(JSON.stringify(measures)));
+        this.post({ type: 'fitted', measures, answer }, []);
         return;
       }
       case 'section':
         return this.postSection(this.deformation, message.pane);
-    }
-  }
-
-  private fail(what: Refusable, error: unknown): void {
-    this.post({ type: 'refused', what, failure: internalFailure(describe(error)) }, []);
-  }
-
-  constructor(
-    private readonly module: DeformModule,
-    private readonly post: Post<FromDeform>,
-    private readonly turns: Turns,
-  ) {}
-
-  receive(message: ToDeform): void {
-    try {
-      this.handle(message);
-    } catch (error) {
-      const isAnswered = ['open', 'show', 'hold', 'fit', 'section'].includes(message.type);
-      this.fail(isAnswered ? (message.type as Refusable) : 'step', error);
     }
   }
 
@@ -284,7 +253,7 @@ export class DeformCore {
         this.work(run, index, pane);
       } catch (error) {
         pane.isBusy = false;
-        this.fail('step', error);
+        this.post(refusalOf(error), []);
       }
       break;
     }

@@ -1,12 +1,14 @@
 // Messages between the page and the worker that finds the shapes of fabrics. Lengths in metres.
 
-import type { Failure } from '../../shared/bindings/answers';
+import type { Refusal } from '../../shared/bindings/refusals';
+import type { StartShape } from '../../shared/page/view';
 import type { Done } from '../../shared/workers/asked';
 import type { ClothAnswer, DeformReport, FitAnswer, TermNumbers } from '../bindings/deform-module';
+import type { EnergyForm, PaneState } from '../state/deform-state';
 
 export interface ShowMessage {
   type: 'show';
-  form: 'consistent' | 'published';
+  form: EnergyForm;
   /** One pane for each. */
   weights: TermNumbers[];
 }
@@ -27,15 +29,13 @@ export type ToDeform =
   /** Asks for what a cloth in motion starts from. */
   | { type: 'section'; pane: number };
 
-export type DeformStatus = 'dragging' | 'settling' | 'converged' | 'not_converged';
-
 export interface DeformFrame {
   type: 'frame';
   cloth: number;
   pane: number;
   /** Laid out as any frame (frame.ts), without a scalar. To be given back. */
   buffer: ArrayBuffer;
-  status: DeformStatus;
+  status: PaneState['status'];
   report: DeformReport;
   /** Time of the work since something was last moved or weighted otherwise [ms]. */
   updateMs: number;
@@ -61,21 +61,14 @@ export interface FittedMessage {
 }
 
 /** The section "cloth" of a scene, and the places from which a pane's shape starts. */
-export interface SectionMessage {
+export interface SectionMessage extends StartShape {
   type: 'section';
-  section: object;
-  positions: Float64Array;
 }
 
 export type FromDeform =
   | OpenedMessage
   | GrantedMessage
-  /** `step`: something failed that nobody asked for by name. */
-  | {
-      type: 'refused';
-      what: 'open' | 'show' | 'hold' | 'fit' | 'section' | 'step';
-      failure: Failure;
-    }
+  | Refusal
   | DeformFrame
   | FittedMessage
   | SectionMessage;

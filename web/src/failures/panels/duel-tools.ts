@@ -17,22 +17,11 @@ export function createDuelTools(
   store: Store<FailuresState>,
   run: Playable,
   homeView: () => void,
-): () => void {
-  const stopTools = createRunTools(
-    parent,
-    store,
-    run,
-    homeView,
-    WORDS,
-    (phase) => phase === 'ready',
-  );
+): void {
+  createRunTools(parent, store, run, homeView, WORDS, (phase) => phase === 'ready');
   const time = element('output', { class: 'toolbar-time', 'aria-live': 'off' });
   parent.append(time);
-  const stop = watch(store, ['timeS', 'caseId'], ({ timeS, caseId }) => {
+  watch(store, ['timeS', 'caseId'], ({ timeS, caseId }) => {
     setText(time, `${timeS.toFixed(2)} s of ${caseNamed(caseId).endS} s`);
   });
-  return () => {
-    stopTools();
-    stop();
-  };
 }

@@ -37,9 +37,9 @@ function createBadge(parent: HTMLElement, side: Side) {
   };
 }
 
-export function createSideBadges(parent: HTMLElement, store: Store<FailuresState>): () => void {
+export function createSideBadges(parent: HTMLElement, store: Store<FailuresState>): void {
   const badges = SIDES.map((side) => createBadge(parent, side));
-  return watch(store, ['caseId', 'sides', 'timeS'], (state) => {
+  watch(store, ['caseId', 'sides', 'timeS'], (state) => {
     for (const show of badges) show(state);
   });
 }

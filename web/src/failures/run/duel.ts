@@ -13,10 +13,10 @@ import {
 import { Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
 import { BrokenWorker } from '../../shared/workers/asked';
+import { type StartMotion, startMotionWorker } from '../../shared/workers/motion-client';
 import type { FrameMessage } from '../../shared/workers/motion-protocol';
 import { caseNamed, SIDES, type Side, STEP_S, sceneTextOf } from '../state/failure-cases';
 import { type FailuresState, freshSides, type SideState } from '../state/failures-state';
-import { type StartSide, startSideWorker } from './failures-client';
 import { SideRun, type SideStart } from './side-run';
 
 /** The picture of a duel. */
@@ -33,10 +33,10 @@ export interface DuelView {
 
 /** The parts of the browser that a duel needs: tests have their own. */
 export interface DuelParts extends Display {
-  start: StartSide;
+  start: StartMotion;
 }
 
-const BROWSER: DuelParts = { ...DISPLAY, start: startSideWorker };
+const BROWSER: DuelParts = { ...DISPLAY, start: startMotionWorker };
 
 function sideAfter(before: SideState, { report, hasEnded }: FrameMessage, msPerStep: number) {
   if (!report) return before;

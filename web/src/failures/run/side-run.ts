@@ -1,7 +1,7 @@
 // One side of a case: its worker, and the buffer in which its frames travel.
 import type { Collider } from '../../shared/bindings/geometry';
+import type { MotionClient } from '../../shared/workers/motion-client';
 import type { FrameMessage, LoadedMessage } from '../../shared/workers/motion-protocol';
-import type { SideClient } from './failures-client';
 
 export interface SideStart {
   triangles: Uint32Array;
@@ -17,7 +17,7 @@ export class SideRun {
   private hasEnded = false;
 
   constructor(
-    private readonly client: SideClient,
+    private readonly client: MotionClient,
     fabricsText: string,
   ) {
     client.tell({ type: 'open', fabricsText });

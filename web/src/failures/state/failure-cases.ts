@@ -42,6 +42,13 @@ export interface FailureCase extends Record<Side, Contestant> {
 
 export const STEP_S = 1 / 60;
 
+const IMPLICIT: Contestant = { words: 'Implicit, one substep', method: { stepper: 'implicit' } };
+
+const POSITION_BASED: Contestant = {
+  words: 'Position-based, 4 substeps',
+  method: { stepper: 'xpbd', substeps: 4 },
+};
+
 export const CASES: readonly FailureCase[] = [
   {
     id: 'long_step_stiff_cloth',
@@ -54,7 +61,7 @@ export const CASES: readonly FailureCase[] = [
       words: 'Explicit, 400 substeps where 734 are stable',
       method: { stepper: 'explicit', substeps: 400, beyond_bound: 'go_on' },
     },
-    ours: { words: 'Implicit, one substep', method: { stepper: 'implicit' } },
+    ours: IMPLICIT,
     sign: 'speed',
     endS: 2,
   },
@@ -82,11 +89,8 @@ export const CASES: readonly FailureCase[] = [
     remedy:
       'One system of equations for all rows carries the pull through the whole cloth at once.',
     sceneText: needleCellsText,
-    naive: {
-      words: 'Position-based, 4 substeps',
-      method: { stepper: 'xpbd', substeps: 4 },
-    },
-    ours: { words: 'Implicit, one substep', method: { stepper: 'implicit' } },
+    naive: POSITION_BASED,
+    ours: IMPLICIT,
     sign: 'stretch',
     endS: 1,
   },
@@ -101,7 +105,7 @@ export const CASES: readonly FailureCase[] = [
       words: 'Explicit, 400 substeps',
       method: { stepper: 'explicit', substeps: 400, beyond_bound: 'go_on' },
     },
-    ours: { words: 'Position-based, 4 substeps', method: { stepper: 'xpbd', substeps: 4 } },
+    ours: POSITION_BASED,
     sign: 'ended',
     endS: 2,
   },
@@ -134,7 +138,7 @@ export const CASES: readonly FailureCase[] = [
       words: 'Position-based, one substep',
       method: { stepper: 'xpbd', substeps: 1 },
     },
-    ours: { words: 'Implicit, one substep', method: { stepper: 'implicit' } },
+    ours: IMPLICIT,
     sign: 'stretch',
     endS: 2,
   },
@@ -162,7 +166,7 @@ export const CASES: readonly FailureCase[] = [
       words: 'Position-based, 30 substeps',
       method: { stepper: 'xpbd', substeps: 30 },
     },
-    ours: { words: 'Implicit, one substep', method: { stepper: 'implicit' } },
+    ours: IMPLICIT,
     sign: 'stretch',
     endS: 1,
   },
@@ -173,11 +177,8 @@ export const CASES: readonly FailureCase[] = [
       'One particle weighs ten thousand times what its neighbours do. Projected in turn, each light neighbour gives way before the heavy one moves at all.',
     remedy: 'In one system of equations the bead’s mass is no harder than any other.',
     sceneText: heavyBeadText,
-    naive: {
-      words: 'Position-based, 4 substeps',
-      method: { stepper: 'xpbd', substeps: 4 },
-    },
-    ours: { words: 'Implicit, one substep', method: { stepper: 'implicit' } },
+    naive: POSITION_BASED,
+    ours: IMPLICIT,
     sign: 'unsolved',
     endS: 2,
   },
@@ -189,7 +190,7 @@ export const CASES: readonly FailureCase[] = [
     remedy: 'One linear system a step, solved as far as a picture needs it.',
     sceneText: stiffnessRatioText,
     naive: { words: 'Newton, one substep', method: { stepper: 'newton' } },
-    ours: { words: 'Implicit, one substep', method: { stepper: 'implicit' } },
+    ours: IMPLICIT,
     sign: 'not_converged',
     endS: 1,
   },

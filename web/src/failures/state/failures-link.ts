@@ -8,8 +8,7 @@ export function encodeFailuresLink({ caseId }: FailuresState): string {
 }
 
 export function decodeFailuresLink(hash: string): { caseId: string; problems: string[] } {
-  const { take, finish } = createLinkReader(new URLSearchParams(hash.replace(/^#/, '')));
-  take('view', 'failures', 'failures', oneOf(['failures']));
+  const { take, finish } = createLinkReader(hash, 'failures');
   const ids = CASES.map(({ id }) => id);
   const caseId = take('case', FIRST_CASE, `one of ${ids.join(', ')}`, oneOf(ids));
   return { caseId, problems: finish() };

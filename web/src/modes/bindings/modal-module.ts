@@ -1,5 +1,4 @@
 // The class bound by the module that finds modes and in-betweens, and the shape of the texts it answers with.
-import { methodsOf } from '../../shared/bindings/methods';
 
 /** The measure of how much a shape costs: the volume inside, the surface alone, or a cloth's own springs. */
 export type Energy = 'volume' | 'surface' | 'cloth';
@@ -104,25 +103,3 @@ export interface ModalStudyHandle {
 export interface ModalModule {
   ModalStudy: new (fabricsText: string) => ModalStudyHandle;
 }
-
-export const MODAL_METHODS: Record<keyof ModalModule, string[]> = {
-  ModalStudy: methodsOf<ModalStudyHandle>({
-    openBox: true,
-    openObj: true,
-    readKey: true,
-    openScene: true,
-    run: true,
-    findModes: true,
-    complete: true,
-    replaceKey: true,
-    fillIn: true,
-    volumeShares: true,
-    clothShares: true,
-    triangles: true,
-    shape: true,
-    key: true,
-    moves: true,
-    filled: true,
-    delete: true,
-  }),
-};

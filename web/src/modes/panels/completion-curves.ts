@@ -3,6 +3,8 @@ import { linearScale } from '../../shared/chart/linear-scale';
 import { pathThrough } from '../../shared/chart/path-through';
 import { element, setText, svg } from '../../shared/panels/element';
 import { lineKey } from '../../shared/panels/line-key';
+import { createPlot, levelMarks, plotText } from '../../shared/panels/plot-parts';
+import { noteLine } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import type { FilledFrame } from '../bindings/modal-module';
 import { energyOf } from '../state/material';
@@ -83,24 +85,15 @@ function draw(curve: Curve, frames: readonly FilledFrame[]): Drawn {
   const end = frames.at(-1)?.time ?? 1;
   const x = (time: number) => LEFT + (time / end) * (WIDTH - LEFT - RIGHT);
   const y = (value: number) => HEIGHT - BOTTOM - axis.part(value) * (HEIGHT - TOP - BOTTOM);
-  const root = svg('svg', {
-    viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
-    class: 'plot',
-    'aria-hidden': 'true',
-  });
+  const root = createPlot(WIDTH, HEIGHT);
   for (const tick of axis.ticks)
     root.append(
-      svg('line', { x1: LEFT, y1: y(tick), x2: WIDTH - RIGHT, y2: y(tick), class: 'grid-minor' }),
-      svg(
-        'text',
-        { x: LEFT - 5, y: y(tick) + 4, class: 'tick tick-y' },
-        String(Number(tick.toPrecision(3))),
-      ),
+      ...levelMarks([LEFT, WIDTH - RIGHT], y(tick), String(Number(tick.toPrecision(3))), 5),
     );
   for (let key = 0; key <= end; ++key)
     root.append(
       svg('line', { x1: x(key), y1: TOP, x2: x(key), y2: HEIGHT - BOTTOM, class: 'grid-minor' }),
-      svg('text', { x: x(key), y: HEIGHT - BOTTOM + 15, class: 'tick tick-x' }, String(key + 1)),
+      plotText('tick tick-x', x(key), HEIGHT - BOTTOM + 15, String(key + 1)),
     );
   const points = (values: readonly number[]) =>
     values.map((value, index) => [x(frames[index]?.time ?? 0), y(value)] as const);
@@ -109,7 +102,7 @@ function draw(curve: Curve, frames: readonly FilledFrame[]): Drawn {
     svg('path', { d: pathThrough(points(straight)), class: 'curve-straight' }),
     svg('path', { d: pathThrough(points(ours)), class: 'curve-ours' }),
     now,
-    svg('text', { x: LEFT + (WIDTH - LEFT) / 2, y: HEIGHT - 3, class: 'axis' }, 'key'),
+    plotText('axis', LEFT + (WIDTH - LEFT) / 2, HEIGHT - 3, 'key'),
   );
   return { root, now, x };
 }
@@ -143,12 +136,12 @@ export function createCompletionCurves(parent: HTMLElement, store: Store<ModesSt
   const charts = createCharts();
   const legend = element(
     'ul',
-    { class: 'marks curve-keys' },
+    { class: 'marks line-keys' },
     lineKey('curve-ours', 'In-betweens'),
     lineKey('curve-straight', 'Straight from key to key, the ghost'),
   );
   const story = element('p', { class: 'story' });
-  const halves = element('p', { class: 'note' });
+  const halves = noteLine();
   const table = createCompletionTable();
   const whole = element('div', {}, story, legend, charts.box, halves, table.box);
   parent.append(whole);

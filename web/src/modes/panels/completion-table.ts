@@ -1,7 +1,9 @@
 // The frames of a completed motion as a table, beside their curves.
-import { element } from '../../shared/panels/element';
+
 import { createNumberTable, fillHead } from '../../shared/panels/number-table';
 import { percent } from '../../shared/panels/quantity';
+import { folded, noteLine } from '../../shared/panels/section';
+import { numberCell, rowOf } from '../../shared/panels/table-parts';
 import type { FilledFrame } from '../bindings/modal-module';
 
 const HEADS = ['Key', 'Volume', 'straight', 'Strain', 'straight'];
@@ -9,11 +11,9 @@ const HEADS = ['Key', 'Volume', 'straight', 'Strain', 'straight'];
 function tableRow(frame: FilledFrame, rest_m3: number): HTMLElement {
   const { time, volume_m3, straight_volume_m3, strain, straight_strain } = frame;
   const ratios = [volume_m3 / rest_m3, straight_volume_m3 / rest_m3, strain, straight_strain];
-  return element(
-    'tr',
-    {},
-    element('th', { scope: 'row' }, String(Number((time + 1).toFixed(3)))),
-    ...ratios.map((ratio) => element('td', { class: 'number' }, percent(ratio, 3))),
+  return rowOf(
+    String(Number((time + 1).toFixed(3))),
+    ...ratios.map((ratio) => numberCell(percent(ratio, 3))),
   );
 }
 
@@ -26,13 +26,10 @@ export function createCompletionTable() {
     const rest = frames[0]?.volume_m3 ?? 1;
     if (box.open) table.rows.replaceChildren(...frames.map((frame) => tableRow(frame, rest)));
   };
-  const box = element(
-    'details',
+  const box = folded(
+    'The same as a table',
     { toggle: fill },
-    element('summary', {}, 'The same as a table'),
-    element(
-      'p',
-      { class: 'note' },
+    noteLine(
       'Volumes over that of the first key. Strain: how far each piece is from a turned copy of itself, as a root of the mean square; the energy goes with its square.',
     ),
     table.box,

@@ -1,5 +1,6 @@
 // The lowest modes: each alone by its button, any mix by the sliders.
 import { button, choice, element, field, setText } from '../../shared/panels/element';
+import { addSection, noteLine } from '../../shared/panels/section';
 import { createSegments, type Segment } from '../../shared/panels/segments';
 import { type Store, watch } from '../../shared/state/store';
 import type { Energy } from '../bindings/modal-module';
@@ -80,26 +81,24 @@ export function createModeList(
       option === 'both' ? actions.setEnergy('volume', true) : actions.setEnergy(option, false),
   );
   let nEnergies = 0;
-  const meaning = element('p', { class: 'note' });
-  const note = element('p', { class: 'note' });
+  const meaning = noteLine();
+  const note = noteLine();
   const list = element('ol', { class: 'mode-list', 'aria-label': 'Modes' });
   const count = choice(
     COUNTS.map((value) => ({ value, title: String(value) })),
     actions.setCount,
   );
   const rest = button('All to zero', () => store.set({ amplitudes: [] }), { class: 'wide' });
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'Modes' },
-      element('h2', {}, 'Modes'),
-      energies.control,
-      meaning,
-      list,
-      rest,
-      note,
-      field('How many', count.control),
-    ),
+  addSection(
+    parent,
+    'Modes',
+    element('h2', {}, 'Modes'),
+    energies.control,
+    meaning,
+    list,
+    rest,
+    note,
+    field('How many', count.control),
   );
   let rows: Row[] = [];
   const keys: (keyof ModesState)[] = [

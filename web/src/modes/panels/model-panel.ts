@@ -2,6 +2,7 @@
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { createObjPicker } from '../../shared/panels/obj-picker';
 import { createObjUnit, ownMeshWords } from '../../shared/panels/obj-unit';
+import { addSection, folded, noteLine } from '../../shared/panels/section';
 import type { ObjUnit } from '../../shared/state/obj-file';
 import { type Store, watch } from '../../shared/state/store';
 import type { VolumeChoice } from '../bindings/modal-module';
@@ -45,28 +46,25 @@ export function createModelPanel(
   ];
   const chosen = choice(options, actions.openModel);
   const caption = element('p', { class: 'caption' });
-  const size = element('p', { class: 'note' });
+  const size = noteLine();
   const cells = choice(
     BAR_CELLS.map((value) => ({ value, title: `${value} cubes through its thickness` })),
     actions.setCells,
   );
   const cellBox = field('How fine', cells.control);
   const volume = choice(VOLUMES, actions.setVolume);
-  const volumeBox = element(
-    'details',
+  const volumeBox = folded(
+    'The volume that carries it',
     {},
-    element('summary', {}, 'The volume that carries it'),
-    element(
-      'p',
-      { class: 'note' },
+    noteLine(
       'A closed surface is filled with cubes of six tetrahedra each; an open one is thickened by half the mean edge to each side.',
     ),
     field('Volume', volume.control),
   );
   const unit = createObjUnit(actions.setUnit);
-  const section = element(
-    'section',
-    { 'aria-label': 'Model' },
+  const section = addSection(
+    parent,
+    'Model',
     field('Model', chosen.control),
     caption,
     size,
@@ -75,7 +73,6 @@ export function createModelPanel(
     unit.box,
   );
   createObjPicker(section, actions);
-  parent.append(section);
   const keys: (keyof ModesState)[] = ['model', 'surface', 'objName', 'cells', 'volume', 'phase'];
   watch(store, keys, (state) => {
     chosen.select(state.model);

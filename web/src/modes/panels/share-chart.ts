@@ -1,6 +1,8 @@
 // How much of a motion the first modes make up together: bars that climb to all of it.
 import { element, setText, svg } from '../../shared/panels/element';
+import { createPlot, levelMarks, plotText, uprightTitle } from '../../shared/panels/plot-parts';
 import { percent } from '../../shared/panels/quantity';
+import { addSection } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import type { ModesState } from '../state/modes-state';
 
@@ -66,10 +68,7 @@ function draw(root: SVGElement, { rigid, modes }: Shares): void {
   const y = (share: number) => HEIGHT - BOTTOM - share * (HEIGHT - TOP - BOTTOM);
   const parts: SVGElement[] = [];
   for (const tick of [0, 0.25, 0.5, 0.75, 1])
-    parts.push(
-      svg('line', { x1: LEFT, y1: y(tick), x2: WIDTH - RIGHT, y2: y(tick), class: 'grid-minor' }),
-      svg('text', { x: LEFT - 5, y: y(tick) + 4, class: 'tick tick-y' }, String(100 * tick)),
-    );
+    parts.push(...levelMarks([LEFT, WIDTH - RIGHT], y(tick), String(100 * tick), 5));
   const stride = Math.ceil(bars.length / 7);
   bars.forEach((share, index) => {
     const x = LEFT + index * width;
@@ -84,44 +83,27 @@ function draw(root: SVGElement, { rigid, modes }: Shares): void {
     parts.push(bar);
     if (index % stride === 0)
       parts.push(
-        svg(
-          'text',
-          { x: x + width / 2, y: HEIGHT - BOTTOM + 14, class: 'tick tick-x' },
-          String(first + index),
-        ),
+        plotText('tick tick-x', x + width / 2, HEIGHT - BOTTOM + 14, String(first + index)),
       );
   });
+  const title = rigid === null ? 'first modes' : 'rigid motions (0) and first modes';
   parts.push(
-    svg(
-      'text',
-      { x: LEFT + (WIDTH - LEFT) / 2, y: HEIGHT - 4, class: 'axis' },
-      rigid === null ? 'first modes' : 'rigid motions (0) and first modes',
-    ),
-    svg(
-      'text',
-      { x: 13, y: HEIGHT / 2 - 12, class: 'axis', transform: `rotate(-90 13 ${HEIGHT / 2 - 12})` },
-      '% of the motion',
-    ),
+    plotText('axis', LEFT + (WIDTH - LEFT) / 2, HEIGHT - 4, title),
+    uprightTitle(13, HEIGHT / 2 - 12, '% of the motion'),
   );
   root.replaceChildren(...parts);
 }
 
 export function createShareChart(parent: HTMLElement, store: Store<ModesState>): void {
-  const root = svg('svg', {
-    viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
-    class: 'plot',
-    'aria-hidden': 'true',
-  });
+  const root = createPlot(WIDTH, HEIGHT);
   const words = element('figcaption');
   const figure = element('figure', { class: 'chart' });
   figure.append(root, words);
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'How much is in the first modes' },
-      element('h2', {}, 'How much is in the first modes?'),
-      figure,
-    ),
+  addSection(
+    parent,
+    'How much is in the first modes',
+    element('h2', {}, 'How much is in the first modes?'),
+    figure,
   );
   const keys: (keyof ModesState)[] = ['drapeShares', 'completion', 'model', 'energy'];
   watch(store, keys, (state) => {

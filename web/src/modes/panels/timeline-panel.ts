@@ -1,5 +1,8 @@
 // The timeline: keys on it, the present time, and what makes, changes and removes keys.
+
 import { button, element, setText } from '../../shared/panels/element';
+import { filePicker } from '../../shared/panels/obj-picker';
+import { noteLine } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import { type KeyOrigin, keyTitle } from '../state/key-shapes';
 import { hasUnlinkedKeys } from '../state/modes-link';
@@ -23,23 +26,8 @@ function exampleTitle(model: string): string {
   return model === 'bar' || model === 'sheet' ? 'Bent by 180°' : 'First keys';
 }
 
-function createFilePicker(openFiles: (files: readonly File[]) => void) {
-  const picker = element('input', {
-    type: 'file',
-    accept: '.obj',
-    multiple: true,
-    hidden: true,
-    'aria-label': 'OBJ files of keys',
-    change() {
-      openFiles([...(picker.files ?? [])]);
-      picker.value = ''; // choosing the same file, mended, is a change again
-    },
-  });
-  return picker;
-}
-
 function createButtons(actions: TimelineActions) {
-  const picker = createFilePicker(actions.openFiles);
+  const picker = filePicker('OBJ files of keys', actions.openFiles, true);
   const keep = button('Keep as key', actions.keep, {
     title: 'The mix of modes becomes the next key',
   });
@@ -128,7 +116,7 @@ export function createTimelinePanel(
       }),
   });
   const buttons = createButtons(actions);
-  const note = element('p', { class: 'note' });
+  const note = noteLine();
   parent.append(marks, slider, buttons.row, note);
   watch(store, ['keys', 'phase', 'model', 'found'], (state) => {
     buttons.show(state);

@@ -1,11 +1,13 @@
 // The body that is shown: what the worker found of it, and the shapes that its keys and mixes stand for.
+
 import type { Triple } from '../../shared/bindings/geometry';
+import { extentOf } from '../../shared/state/vectors';
 import type { Energy, FilledFrame } from '../bindings/modal-module';
 import { bent, type KeyOrigin, type KeyShape } from '../state/key-shapes';
 import type { ModeNumbers } from '../state/material';
-import { extentOf, mixInto, REACH } from '../state/mix';
+import { mixInto, REACH } from '../state/mix';
 import { pulledMix, timeNearest } from '../state/pull';
-import { shapeAt, straightAt } from '../state/timeline';
+import { shapeAt } from '../state/timeline';
 import type { CompletedMessage, OpenedMessage } from '../worker/modal-protocol';
 
 export class Body {
@@ -56,10 +58,6 @@ export class Body {
   between(target: Float32Array, time: number): boolean {
     if (this.filled) shapeAt(target, this.filled.positions, this.filled.frames, time);
     return this.filled !== null;
-  }
-
-  straight(target: Float32Array, keys: readonly KeyShape[], time: number): void {
-    straightAt(target, keys, time);
   }
 
   /** The time at which a vertex is nearest to a place; null before the motion is there. */

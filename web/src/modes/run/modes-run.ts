@@ -7,8 +7,9 @@ import { Latest } from '../../shared/state/latest';
 import {
   type ObjFile,
   type ObjUnit,
-  oddSize,
+  type OwnMesh,
   openObjFile,
+  ownMeshState,
   textInMetres,
 } from '../../shared/state/obj-file';
 import type { Store } from '../../shared/state/store';
@@ -36,11 +37,6 @@ export interface ModesRunView extends ShapeView {
   showMesh(triangles: Uint32Array, nVertices: number, lookId: number): void;
   /** Everything is there: the camera may look at it. */
   framed(): void;
-}
-
-interface OwnMesh {
-  file: ObjFile;
-  unit: ObjUnit;
 }
 
 /** A model that can be opened. */
@@ -244,9 +240,7 @@ export class ModesRun {
     const { keys: _, ...shown } = link;
     this.store.set({
       ...shown,
-      ...(own
-        ? { objName: own.file.name, objUnit: own.unit, objOdd: oddSize(own.file, own.unit) }
-        : {}),
+      ...(own && ownMeshState(own)),
       surface: opened.answer,
       found: null,
       keys: [],

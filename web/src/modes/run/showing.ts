@@ -1,7 +1,9 @@
 // Turns the state into the shapes that the stage draws.
+
 import type { Store } from '../../shared/state/store';
 import type { Energy } from '../bindings/modal-module';
 import type { ModesState } from '../state/modes-state';
+import { straightAt } from '../state/timeline';
 import type { Body } from './body';
 import { Swing, swung } from './swing';
 
@@ -73,7 +75,7 @@ export class Showing {
         this.drawMix(body, state, energy, pane);
       });
     const hasGhost = state.showing === 'keys' && state.ghost && state.completion !== null;
-    if (hasGhost) body.straight(this.ghost, state.keys, state.time);
+    if (hasGhost) straightAt(this.ghost, state.keys, state.time);
     this.view.showGhost(hasGhost ? this.ghost : null);
   }
 

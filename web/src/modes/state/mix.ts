@@ -3,18 +3,6 @@
 /** Share by which the farthest vertex moves at full amplitude of the body's extent. */
 export const REACH = 0.15;
 
-/** The diagonal of the box around places, three numbers each [m]. */
-export function extentOf(places: ArrayLike<number>): number {
-  const low = [Infinity, Infinity, Infinity];
-  const high = [-Infinity, -Infinity, -Infinity];
-  for (let k = 0; k < places.length; ++k) {
-    const axis = k % 3;
-    low[axis] = Math.min(low[axis] as number, places[k] as number);
-    high[axis] = Math.max(high[axis] as number, places[k] as number);
-  }
-  return Math.hypot(...high.map((most, axis) => most - (low[axis] as number)));
-}
-
 /** Writes shape + sum of amplitude · reach · move; `reach` in metres, moves one after the other. */
 export function mixInto(
   target: Float32Array | Float64Array,

@@ -105,13 +105,10 @@ export function encodeModesLink(state: ModesState): string {
 
 /** The state a link stands for; `problems` says in words what could not be read. */
 export function decodeModesLink(hash: string): { link: ModesLink; problems: string[] } {
-  const { take, finish } = createLinkReader(new URLSearchParams(hash.replace(/^#/, '')));
-  take('view', 'modes', 'modes', oneOf(['modes']));
+  const { take, takeSwitch, finish } = createLinkReader(hash, 'modes');
   const ids = MODELS.map(({ id }) => id);
   const expected = `${ids.join(', ')} (a link carries no OBJ)`;
   const usual = usualLink(take('model', ids[0] ?? '', expected, oneOf(ids)));
-  const onOff = (key: string, fallback: boolean) =>
-    take(key, fallback ? 'on' : 'off', 'on or off', oneOf(['on', 'off'])) === 'on';
   const energies = energiesOf(usual.model);
   const keys = take(
     'keys',
@@ -125,7 +122,7 @@ export function decodeModesLink(hash: string): { link: ModesLink; problems: stri
     cells: take('cells', usual.cells, BAR_CELLS.join(', '), oneOf(BAR_CELLS)),
     volume: take('volume', usual.volume, VOLUMES.join(', '), oneOf(VOLUMES)),
     energy: take('energy', usual.energy, energies.join(', '), oneOf(energies)),
-    compares: onOff('both', usual.compares),
+    compares: takeSwitch('both', usual.compares),
     count: take('count', usual.count, COUNTS.join(', '), oneOf(COUNTS)),
     amplitudes: take('mix', usual.amplitudes, 'modes with amplitudes, as 1:0.5_3:-0.2', mixIn),
     showing: take('show', usual.showing, SHOWINGS.join(', '), oneOf(SHOWINGS)),
@@ -133,8 +130,8 @@ export function decodeModesLink(hash: string): { link: ModesLink; problems: stri
       const time = text.trim() === '' ? Number.NaN : Number(text);
       return time >= 0 && time <= last ? time : undefined;
     }),
-    ghost: onOff('ghost', usual.ghost),
-    edges: onOff('edges', usual.edges),
+    ghost: takeSwitch('ghost', usual.ghost),
+    edges: takeSwitch('edges', usual.edges),
     keys,
   };
   return { link, problems: finish() };

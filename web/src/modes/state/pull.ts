@@ -1,5 +1,7 @@
 // A hand on a body whose shapes are mixes of modes, or on one that moves through its keys.
+
 import type { Triple } from '../../shared/bindings/geometry';
+import { cross, dot, minus, placeOf } from '../../shared/state/vectors';
 import type { FilledFrame } from '../bindings/modal-module';
 import type { ModeNumbers } from './material';
 
@@ -10,14 +12,6 @@ const LEAST_RELATIVE = 0.3;
 const LEAST_SHARE = 1e-3;
 
 type Matrix = [Triple, Triple, Triple];
-
-function dot([a, b, c]: Triple, [x, y, z]: Triple): number {
-  return a * x + b * y + c * z;
-}
-
-function cross([a, b, c]: Triple, [x, y, z]: Triple): Triple {
-  return [b * z - c * y, c * x - a * z, a * y - b * x];
-}
 
 /** x with rows · x = wanted, by Cramer's rule. */
 function solved([p, q, r]: Matrix, wanted: Triple): Triple {
@@ -73,9 +67,7 @@ export function timeNearest(
   place: Triple,
 ): number {
   const length = filled.length / frames.length;
-  const at = (frame: number) =>
-    [0, 1, 2].map((axis) => filled[frame * length + 3 * vertex + axis] as number) as Triple;
-  const minus = (a: Triple, b: Triple) => a.map((value, axis) => value - (b[axis] ?? 0)) as Triple;
+  const at = (frame: number) => placeOf(filled, (frame * length) / 3 + vertex);
   let best = { time: 0, square: Number.POSITIVE_INFINITY };
   for (let frame = 0; frame + 1 < frames.length; ++frame) {
     const [from, to] = [at(frame), at(frame + 1)];

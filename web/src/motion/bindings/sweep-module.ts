@@ -1,5 +1,4 @@
 // The class bound by the module that measures, and the shape of the texts it answers with.
-import { methodsOf } from '../../shared/bindings/methods';
 import type { RunWarning } from '../../shared/bindings/run-warning';
 
 export interface BenchMethod {
@@ -75,12 +74,3 @@ export interface ExperimentHandle {
 export interface SweepModule {
   Experiment: new (fabricsText: string) => ExperimentHandle;
 }
-
-export const SWEEP_METHODS: Record<keyof SweepModule, string[]> = {
-  Experiment: methodsOf<ExperimentHandle>({
-    start: true,
-    keepReference: true,
-    advance: true,
-    delete: true,
-  }),
-};

@@ -1,5 +1,6 @@
 // Chooses what is painted on the cloth: its material, stretch or distance; and the lines over it.
 import { checkBox, choice, element, field } from '../../shared/panels/element';
+import { addSection } from '../../shared/panels/section';
 import type { HeatMap } from '../../shared/stage/heat-map';
 import { type Store, watch } from '../../shared/state/store';
 import { referenceUrl } from '../run/references';
@@ -13,7 +14,7 @@ const HEAT_TITLES: readonly { value: HeatMap; title: string }[] = [
   { value: 'distance', title: 'Distance to reference' },
 ];
 
-export function createDrawingPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createDrawingPanel(parent: HTMLElement, store: Store<MotionState>): void {
   const heat = choice(HEAT_TITLES, (value) => store.set({ heat: value }));
   const range = choice<string>(
     [
@@ -25,16 +26,14 @@ export function createDrawingPanel(parent: HTMLElement, store: Store<MotionState
   const rangeField = field('Scale', range.control);
   const edges = checkBox('Edges of the mesh', (isOn) => store.set({ edges: isOn }));
   const springs = checkBox('Springs: explicit or implicit', (isOn) => store.set({ springs: isOn }));
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'Drawing' },
-      element('div', { class: 'pair' }, field('Colour shows', heat.control), rangeField),
-      edges.label,
-      springs.label,
-    ),
+  addSection(
+    parent,
+    'Drawing',
+    element('div', { class: 'pair' }, field('Colour shows', heat.control), rangeField),
+    edges.label,
+    springs.label,
   );
-  return watch(store, ['heat', 'heatRange', 'edges', 'springs', 'numbers', 'setting'], (state) => {
+  watch(store, ['heat', 'heatRange', 'edges', 'springs', 'numbers', 'setting'], (state) => {
     const hasReference = referenceUrl(state.setting) !== null;
     heat.limit((value) => (value === 'distance' && !hasReference ? 'none of this scene' : null));
     heat.select(hasReference ? state.heat : shownHeat(state));

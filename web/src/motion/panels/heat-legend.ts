@@ -26,7 +26,7 @@ function presentText({ least, most }: HeatScale, text: (value: number) => string
   return `now ${text(isNoise ? 0 : least)} to ${text(most)}`;
 }
 
-export function createHeatLegend(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createHeatLegend(parent: HTMLElement, store: Store<MotionState>): void {
   const title = element('p', { class: 'legend-title' });
   const bar = element('div', { class: 'legend-bar', 'aria-hidden': 'true' });
   const low = element('span');
@@ -43,7 +43,7 @@ export function createHeatLegend(parent: HTMLElement, store: Store<MotionState>)
     means,
   );
   parent.append(legend);
-  return watch(store, ['heatScale', 'heatRange'], ({ heatScale: scale, heatRange }) => {
+  watch(store, ['heatScale', 'heatRange'], ({ heatScale: scale, heatRange }) => {
     legend.hidden = !scale || scale.map === 'off';
     if (!scale) return;
     const isDistance = scale.map === 'distance';

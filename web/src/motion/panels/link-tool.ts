@@ -27,7 +27,7 @@ export function createLinkTool(
   parent: HTMLElement,
   store: Store<MotionState>,
   actions: { rest(): Promise<void>; link(): string },
-): () => void {
+): void {
   const said = element('p', { class: 'note', role: 'status' });
   async function copy(): Promise<void> {
     await actions.rest();
@@ -43,5 +43,5 @@ export function createLinkTool(
   const button = toolButton('link', 'Copy link', 'Copy a link to what is shown', () => void copy());
   parent.append(button.made, said);
   // The words are of what was shown then.
-  return watch(store, ['setting', 'playing', 'camera', 'phase'], () => setText(said, ''));
+  watch(store, ['setting', 'playing', 'camera', 'phase'], () => setText(said, ''));
 }

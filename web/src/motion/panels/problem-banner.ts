@@ -8,7 +8,7 @@ export function createProblemBanner(
   parent: HTMLElement,
   store: Store<MotionState>,
   actions: Pick<MotionRun, 'reset' | 'showAnew'>,
-): () => void {
+): void {
   const sentence = element('p');
   const help = button('', () => {
     const remedy = store.get().problem?.remedy;
@@ -22,7 +22,7 @@ export function createProblemBanner(
   const parts = [sentence, help, reset, dismiss];
   const banner = element('div', { class: 'problem', role: 'alert' }, ...parts);
   parent.append(banner);
-  return watch(store, ['problem'], ({ problem }) => {
+  watch(store, ['problem'], ({ problem }) => {
     banner.hidden = problem === null;
     help.hidden = !problem?.remedy;
     setText(help, problem?.remedy?.title ?? '');

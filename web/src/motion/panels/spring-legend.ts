@@ -21,7 +21,7 @@ function key(kind: 'explicit' | 'implicit', title: string): HTMLElement {
   return element('li', {}, element('span', { class: `spring-key spring-${kind}` }), title);
 }
 
-export function createSpringLegend(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createSpringLegend(parent: HTMLElement, store: Store<MotionState>): void {
   const keys = element(
     'ul',
     { class: 'marks' },
@@ -37,7 +37,7 @@ export function createSpringLegend(parent: HTMLElement, store: Store<MotionState
     words,
   );
   parent.append(legend);
-  return watch(store, ['springs', 'springSplit', 'phase'], (state) => {
+  watch(store, ['springs', 'springSplit', 'phase'], (state) => {
     const { springs, springSplit: split, phase, setting } = state;
     legend.hidden = !springs || !split || phase !== 'ready';
     if (!split) return;

@@ -15,13 +15,13 @@ export function createWorkBar(
   parent: HTMLElement,
   store: Store<MotionState>,
   actions: { stopWork(): void },
-): () => void {
+): void {
   const sentence = element('p');
   const progress = element('progress', { max: 1, 'aria-label': 'Progress' });
   const stop = button('Stop', () => actions.stopWork());
   const bar = element('div', { class: 'working work-bar' }, sentence, progress, stop);
   parent.append(bar);
-  return watch(store, ['ahead', 'busy', 'setting', 'summary'], (state) => {
+  watch(store, ['ahead', 'busy', 'setting', 'summary'], (state) => {
     const text = words(state);
     bar.hidden = text === '';
     setText(sentence, text);

@@ -8,11 +8,8 @@ import { answerOf } from '../../shared/workers/asked';
 import type { ImexSaving } from '../state/imex-saving';
 import type { MotionState } from '../state/motion-state';
 import { type Setting, sceneOf } from '../state/setting';
-import {
-  type MeasuringClient,
-  type StartMeasuring,
-  startMeasuringWorker,
-} from './measuring-client';
+import { Beside } from './beside';
+import { type StartMeasuring, startMeasuringWorker } from './measuring-client';
 
 /** A slider that stands for so long rests [ms]. */
 const REST_MS = 400;
@@ -26,20 +23,15 @@ export class ImexSavingSource {
   private sceneText: string | null = null; // the scene that is told of, or asked about
   private isAsking = false;
   private isFirst = true; // nobody has moved anything yet: nothing is measured unasked
-  private restHandle: ReturnType<typeof setTimeout> | undefined;
-  private racing: MeasuringClient | null = null;
-  readonly close: () => void;
+  private readonly race: Beside;
 
   constructor(
     private readonly store: Store<MotionState>,
     private readonly readShare: (setting: Setting) => Promise<ImexShare | null>,
-    private readonly start: StartMeasuring = startMeasuringWorker,
+    start: StartMeasuring = startMeasuringWorker,
   ) {
-    const stop = watch(store, ['setting', 'draggedSubsteps', 'phase'], () => void this.follow());
-    this.close = () => {
-      stop();
-      this.cancel();
-    };
+    this.race = new Beside(start, REST_MS);
+    watch(store, ['setting', 'draggedSubsteps', 'phase'], () => void this.follow());
   }
 
   private async follow(): Promise<void> {
@@ -48,7 +40,7 @@ export class ImexSavingSource {
     if (setting.stepper !== 'imex') return this.forget();
     const sceneText = JSON.stringify(sceneOf(setting));
     if (sceneText === this.sceneText) return;
-    this.cancel();
+    this.race.cancel();
     if (this.isAsking || state.phase !== 'ready' || !state.summary) return;
     this.sceneText = sceneText;
     this.isAsking = true;
@@ -67,30 +59,19 @@ export class ImexSavingSource {
     const time = this.isFirst ? 'unasked' : 'measuring';
     this.isFirst = false;
     this.store.set({ imexSaving: { ...known, time } });
-    if (time === 'measuring')
-      this.restHandle = setTimeout(() => void this.measure(sceneText), REST_MS);
-  }
-
-  private async measure(sceneText: string): Promise<void> {
-    const client = this.start({});
-    this.racing = client;
-    const question = { type: 'race', fabricsText, sceneText } as const;
-    const answer = await answerOf(client.ask(question), () => undefined);
-    if (this.racing !== client) return;
-    this.cancel();
-    const { imexSaving } = this.store.get();
-    if (imexSaving) this.store.set({ imexSaving: { ...imexSaving, time: answer?.ratio ?? null } });
-  }
-
-  /** Gives up what is being measured. */
-  private cancel(): void {
-    clearTimeout(this.restHandle);
-    this.racing?.terminate();
-    this.racing = null;
+    if (time !== 'measuring') return;
+    this.race.later(
+      (client) => answerOf(client.ask({ type: 'race', fabricsText, sceneText }), () => undefined),
+      (answer) => {
+        const { imexSaving } = this.store.get();
+        if (!imexSaving) return;
+        this.store.set({ imexSaving: { ...imexSaving, time: answer?.ratio ?? null } });
+      },
+    );
   }
 
   private forget(): void {
-    this.cancel();
+    this.race.cancel();
     this.sceneText = null;
     this.isFirst = true;
     this.store.set({ imexSaving: null });

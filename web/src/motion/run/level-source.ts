@@ -9,10 +9,10 @@ export function followLevels(
   store: Store<MotionState>,
   /** The answer; null when it comes too late. */
   read: (wish: LevelWish) => Promise<LevelsMessage | null>,
-): () => void {
+): void {
   let asked = ''; // how they were last asked for
   let askedOf: MotionState['summary'] = null; // and of which mesh: each has a summary of its own
-  return watch(
+  watch(
     store,
     ['coarse', 'coarseAs', 'setting', 'summary', 'phase'],
     async ({ coarse, coarseAs, setting, summary, phase }) => {

@@ -1,6 +1,6 @@
 // Starts the workers that measure beside the shown cloth.
-import { type Asked, createAsked, type Done, type Listener } from '../../shared/workers/asked';
-import { withCore } from '../../shared/workers/compiled-core';
+import type { Asked, Done, Listener } from '../../shared/workers/asked';
+import { startAsked } from '../../shared/workers/compiled-core';
 import type { FromConvergence, ToConvergence } from '../worker/convergence-protocol';
 import type { RacedMessage, StudiedMessage, ToMeasuring } from '../worker/measuring-protocol';
 import type { FromSweep, PlannedMessage, ToSweep } from '../worker/sweep-protocol';
@@ -13,10 +13,8 @@ export type StartMeasuring = (listener: Listener<never>) => MeasuringClient;
 
 /** Measures one scene. */
 export function startMeasuringWorker(listener: Listener<never>): MeasuringClient {
-  return createAsked(
-    withCore(
-      new Worker(new URL('../worker/measuring-worker.ts', import.meta.url), { type: 'module' }),
-    ),
+  return startAsked(
+    new Worker(new URL('../worker/measuring-worker.ts', import.meta.url), { type: 'module' }),
     listener,
   );
 }
@@ -26,8 +24,8 @@ export type StartSweep = (listener: Listener<FromSweep>) => SweepClient;
 
 /** Runs one sweep, told to; its reports are news. */
 export function startSweepWorker(listener: Listener<FromSweep>): SweepClient {
-  return createAsked(
-    withCore(new Worker(new URL('../worker/sweep-worker.ts', import.meta.url), { type: 'module' })),
+  return startAsked(
+    new Worker(new URL('../worker/sweep-worker.ts', import.meta.url), { type: 'module' }),
     listener,
   );
 }
@@ -37,10 +35,8 @@ export type StartConvergence = (listener: Listener<FromConvergence>) => Converge
 
 /** Compares methods on one step, told to: how far it is, and what comes of it, is news. */
 export function startConvergenceWorker(listener: Listener<FromConvergence>): ConvergenceClient {
-  return createAsked(
-    withCore(
-      new Worker(new URL('../worker/convergence-worker.ts', import.meta.url), { type: 'module' }),
-    ),
+  return startAsked(
+    new Worker(new URL('../worker/convergence-worker.ts', import.meta.url), { type: 'module' }),
     listener,
   );
 }

@@ -7,12 +7,12 @@ import { affordable, createClock } from '../../shared/state/clock';
 import { Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
+import { type StartMotion, startMotionWorker } from '../../shared/workers/motion-client';
 import type {
   FrameMessage,
   FromMotion,
   LevelsMessage,
   LoadedMessage,
-  RunReport,
   ToMotion,
   TornMesh,
 } from '../../shared/workers/motion-protocol';
@@ -21,26 +21,18 @@ import { withSample } from '../state/energy-samples';
 import { type MotionState, shownHeat, wantsReference } from '../state/motion-state';
 import { presetSetting, type Setting } from '../state/setting';
 import { withCost } from '../state/step-cost';
-import {
-  type StartMotion,
-  type StartObj,
-  startMotionWorker,
-  startObjWorker,
-} from './motion-client';
+import { type StartObj, startObjWorker } from './obj-client';
 import { ObjSource } from './obj-source';
 import { ReferenceSource } from './reference-source';
-import { remedyFor, remedyForWarning } from './remedy';
+import { remedyFor } from './remedy';
 import { type Content, canKeepMotion, isSameScene, loadOf } from './run-content';
 import { RunFrames } from './run-frames';
+import { RunReading } from './run-reading';
 import { endOf, workWords } from './run-words';
 import { RunWorker, type Work } from './run-worker';
-import { createStepTimer } from './step-timing';
 
 /** Numbers are read and shown this often [ms]: faster cannot be read. */
 const NUMBERS_EVERY_MS = 200;
-
-/** The pace is measured over this much of the clock [s]. */
-const PACE_WINDOW_S = 1;
 
 /** Time of a step that is expected before one was measured [ms]. */
 const EXPECTED_STEP_MS = 10;
@@ -81,14 +73,12 @@ export class MotionRun {
   private readonly reference: ReferenceSource;
   private readonly clock = createClock();
   private readonly frames = new RunFrames();
-  private readonly timer = createStepTimer();
+  private readonly reading = new RunReading();
   private readonly latest = new Latest(); // load or reset
   private doing: Doing = 'nothing';
-  private paceFrom = { clockMs: 0, timeS: 0 };
   private areNumbersOld = false; // they are not those of the shown frame
   private lacksEnergy = false; // the account of energy is open, but its begin was not read
   private isAhead = false; // running to the start, nothing is shown
-  private nWarned = 0; // warnings of the run that were told
   private isRecovering = false; // started again after an end, and no step since
   private startsAnew = false; // the next load keeps no motion
   private loaded: Content | null = null; // content that the worker has
@@ -385,10 +375,8 @@ export class MotionRun {
     this.startsAnew = false;
     this.doing = 'nothing';
     this.areNumbersOld = false;
-    this.restartClock(message.numbers.time_s);
-    this.timer.clear();
-    this.timer.feed(message.numbers);
-    this.nWarned = 0;
+    this.clock.restart();
+    this.reading.begin(message.numbers);
     this.showLoaded(message, content);
     const { problem, startSteps, energy } = this.store.get();
     this.lacksEnergy = energy;
@@ -447,25 +435,6 @@ export class MotionRun {
     this.refill();
   }
 
-  private receiveReport({ numbers, status }: RunReport): void {
-    const patch: Partial<MotionState> = { numbers, isCutShort: status === 'not_converged' };
-    const timing = this.timer.feed(numbers);
-    const { playing, costs } = this.store.get();
-    if (timing) {
-      patch.timing = timing;
-      if (this.loaded) patch.costs = withCost(costs, this.loaded.setting, timing.totalMs);
-    }
-    const pace = playing ? this.pace(numbers.time_s) : null;
-    if (pace !== null) patch.pace = pace;
-    const warning = numbers.warnings.slice(this.nWarned).at(0);
-    this.nWarned = numbers.warnings.length;
-    if (warning) {
-      const { setting } = this.store.get();
-      patch.problem = { source: 'setting', ...remedyForWarning(warning, setting) };
-    }
-    this.store.set(patch);
-  }
-
   private addSample(sample: EnergyNumbers): void {
     const { energy, energies } = this.store.get();
     if (!energy) return;
@@ -492,7 +461,8 @@ export class MotionRun {
     if (torn || !this.isAhead || hasEnded) this.showFrame();
     if (colliders.length > 0) this.store.set({ colliders });
     this.areNumbersOld = report === null;
-    if (report) this.receiveReport(report);
+    if (report)
+      this.store.set(this.reading.patchOf(report, this.store.get(), this.loaded?.setting));
     if (hasEnded) return this.end(endOf(report, buffer));
     if (this.isAhead) return this.runAhead();
     this.goOn();
@@ -536,25 +506,10 @@ export class MotionRun {
   }
 
   private startClock(): void {
-    this.restartClock(this.store.get().numbers?.time_s ?? 0);
+    this.reading.restartPace(this.store.get().numbers?.time_s ?? 0);
     this.clock.start(() => {
       this.goOn();
       return this.store.get().playing;
     });
-  }
-
-  private restartClock(timeS: number): void {
-    this.clock.restart();
-    this.paceFrom = { clockMs: performance.now(), timeS };
-  }
-
-  /** Simulated seconds a second, once the window is over. */
-  private pace(timeS: number): number | null {
-    const clockMs = performance.now();
-    const from = this.paceFrom;
-    const elapsedS = (clockMs - from.clockMs) / 1000;
-    if (elapsedS < PACE_WINDOW_S) return null;
-    this.paceFrom = { clockMs, timeS };
-    return (timeS - from.timeS) / elapsedS;
   }
 }

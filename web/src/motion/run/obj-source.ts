@@ -10,7 +10,7 @@ import { answerOf } from '../../shared/workers/asked';
 import { AT_START, type MotionState } from '../state/motion-state';
 import type { ObjMesh } from '../state/obj-mesh';
 import { presetSetting } from '../state/setting';
-import type { ObjClient, StartObj } from './motion-client';
+import type { ObjClient, StartObj } from './obj-client';
 
 type ObjFiles = typeof import('../../shared/state/obj-file');
 

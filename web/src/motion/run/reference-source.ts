@@ -1,6 +1,7 @@
 // Brings the reference that the shown cloth is compared with, once somebody wants to compare.
 
 import type { RunNumbers } from '../../shared/bindings/pleat-module';
+import { fetchedBytes } from '../../shared/page/fetched';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
 import { type MotionState, wantsReference } from '../state/motion-state';
@@ -24,9 +25,7 @@ export class ReferenceSource {
     this.at = url;
     this.store.set({ reference: 'coming' });
     try {
-      const answer = await fetch(url);
-      if (!answer.ok) throw new Error(answer.statusText);
-      const bytes = await answer.arrayBuffer();
+      const bytes = await fetchedBytes(url);
       if (this.at === url) await this.hand(bytes);
     } catch {
       if (this.at === url) this.fail();

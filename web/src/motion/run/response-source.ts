@@ -4,6 +4,7 @@ import { fabricsText } from '../../shared/fabric/fabric-data';
 import { type Store, watch } from '../../shared/state/store';
 import type { MotionState, ResponseStory } from '../state/motion-state';
 import { sceneOf } from '../state/setting';
+import { Beside } from './beside';
 import {
   type MeasuringClient,
   type StartMeasuring,
@@ -18,22 +19,26 @@ const REST_MS = 300;
 
 const COULD_NOT = 'What happens at contact could not be studied. Try again.';
 
+async function studied(client: MeasuringClient, sceneText: string): Promise<ResponseStory> {
+  const question = { type: 'studyResponse', fabricsText, sceneText, windowS: WINDOW_S } as const;
+  try {
+    return (await client.ask(question)).study;
+  } catch (error) {
+    return { refused: error instanceof Refused ? error.failure.what : COULD_NOT };
+  }
+}
+
 export class ResponseSource {
   private sceneText: string | null = null; // the scene that was studied last, or is being studied
-  private restHandle: ReturnType<typeof setTimeout> | undefined;
-  private client: MeasuringClient | null = null;
-  readonly close: () => void;
+  private readonly study: Beside;
 
   constructor(
     private readonly store: Store<MotionState>,
     private readonly isWanted: () => boolean,
-    private readonly start: StartMeasuring = startMeasuringWorker,
+    start: StartMeasuring = startMeasuringWorker,
   ) {
-    const stop = watch(store, ['setting', 'mesh'], () => this.follow());
-    this.close = () => {
-      stop();
-      this.cancel();
-    };
+    this.study = new Beside(start, REST_MS);
+    watch(store, ['setting', 'mesh'], () => this.follow());
   }
 
   /** Studies the shown scene if that is wanted and has not been done. */
@@ -43,37 +48,11 @@ export class ResponseSource {
     const { bounces: _, ...asItRests } = setting;
     const sceneText = JSON.stringify(sceneOf(asItRests, mesh));
     if (sceneText === this.sceneText) return;
-    this.cancel();
     this.sceneText = sceneText;
     this.store.set({ response: 'coming' });
-    this.restHandle = setTimeout(() => void this.study(sceneText), REST_MS);
-  }
-
-  private async study(sceneText: string): Promise<void> {
-    const client = this.start({});
-    this.client = client;
-    let response: ResponseStory;
-    try {
-      const question = {
-        type: 'studyResponse',
-        fabricsText,
-        sceneText,
-        windowS: WINDOW_S,
-      } as const;
-      response = (await client.ask(question)).study;
-    } catch (error) {
-      response = { refused: error instanceof Refused ? error.failure.what : COULD_NOT };
-    }
-    if (this.client !== client) return;
-    this.client.terminate();
-    this.client = null;
-    this.store.set({ response });
-  }
-
-  /** Gives up what is being studied. */
-  private cancel(): void {
-    clearTimeout(this.restHandle);
-    this.client?.terminate();
-    this.client = null;
+    this.study.later(
+      (client) => studied(client, sceneText),
+      (response) => this.store.set({ response }),
+    );
   }
 }

@@ -1,8 +1,8 @@
 // The worker of a run: opened before its first question, watched while it is at work, and replaced when it
 // is of no use any more.
 import { fabricsText } from '../../shared/fabric/fabric-data';
+import type { MotionClient, StartMotion } from '../../shared/workers/motion-client';
 import type { FromMotion, MotionAnswers, ToMotion } from '../../shared/workers/motion-protocol';
-import type { MotionClient, StartMotion } from './motion-client';
 
 /** How often work in hand is looked at [ms]. */
 const LOOK_EVERY_MS = 250;

@@ -2,6 +2,7 @@
 // is known: on the spot a reference on a finer mesh takes minutes to hours.
 import { Refused } from '../../shared/bindings/answers';
 import { fabricsText } from '../../shared/fabric/fabric-data';
+import { fetchedBytes } from '../../shared/page/fetched';
 import { BrokenWorker } from '../../shared/workers/asked';
 import type { ReferenceKind, SweepPlan } from '../state/sweep-plan';
 import type { MeshError } from '../state/sweep-state';
@@ -26,12 +27,6 @@ async function planIfPossible(worker: Worker, planned: SweepPlan): Promise<strin
   }
 }
 
-async function fetched(url: string): Promise<ArrayBuffer> {
-  const answer = await fetch(url);
-  if (!answer.ok) throw new Error(answer.statusText);
-  return answer.arrayBuffer();
-}
-
 /** Addresses by id; null when not even these could be fetched. */
 async function ladderFiles(): Promise<ReadonlyMap<string, string> | null> {
   try {
@@ -44,7 +39,7 @@ async function ladderFiles(): Promise<ReadonlyMap<string, string> | null> {
 /** Fetches files and hands them over. False when that failed: what is missing is computed. */
 async function handOver(worker: Worker, urls: readonly string[]): Promise<boolean> {
   try {
-    const references = await Promise.all(urls.map(fetched));
+    const references = await Promise.all(urls.map(fetchedBytes));
     await worker.ask({ type: 'keep', references }, references);
     return true;
   } catch (error) {

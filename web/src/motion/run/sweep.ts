@@ -9,7 +9,7 @@ import {
   hasFinished,
   type ReferenceKind,
   type SweepWish,
-  settingOfRow,
+  settingOf,
   sweepPlan,
 } from '../state/sweep-plan';
 import { type SweepState, sweptScene } from '../state/sweep-state';
@@ -62,7 +62,7 @@ export function createSweep(
     if (!sweep.scene || sweep.disturbed) return;
     const { mesh: _mesh, ...swept } = sweep.scene;
     const add = (known: StepCosts, row: BenchRow) => {
-      const measured = settingOfRow(row, { ...setting, ...swept });
+      const measured = settingOf(row, { ...setting, ...swept });
       const ms = row.ms_per_frame === null ? 0 : row.ms_per_frame * measured.stepS * FRAMES_PER_S;
       return hasFinished(row) && ms > 0 ? withCost(known, measured, ms) : known;
     };

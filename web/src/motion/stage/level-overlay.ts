@@ -13,6 +13,7 @@ import {
 } from 'three';
 import type { MeshLevel } from '../../shared/bindings/pleat-module';
 import type { Overlay } from '../../shared/stage/overlay';
+import { extentOf } from '../../shared/state/vectors';
 
 /** Lines and marks are drawn that much nearer to the eye, so that no cloth that they lie on hides them. */
 const NEARER = 0.01;
@@ -57,13 +58,7 @@ function discTexture(): DataTexture {
 
 /** Width of a mark on a vertex that is kept [m]. */
 function markSize(positions: Float32Array, nKept: number): number {
-  const low = [Infinity, Infinity, Infinity];
-  const high = [-Infinity, -Infinity, -Infinity];
-  positions.forEach((metres, index) => {
-    low[index % 3] = Math.min(low[index % 3] ?? 0, metres);
-    high[index % 3] = Math.max(high[index % 3] ?? 0, metres);
-  });
-  const diagonal = Math.hypot(...high.map((end, axis) => end - (low[axis] ?? 0)));
+  const diagonal = extentOf(positions);
   const spacing = diagonal / Math.sqrt(2 * nKept);
   return Math.min(KEPT_OF_SPACING * spacing, KEPT_OF_CLOTH * diagonal);
 }

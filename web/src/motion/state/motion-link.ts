@@ -185,9 +185,8 @@ export function encodeMotionLink(link: MotionLink): string {
 
 /** The state a link stands for; `problems` says in words what could not be read. */
 export function decodeMotionLink(hash: string): { link: MotionLink; problems: string[] } {
-  const text = hash.replace(/^#/, '');
-  const reader = createLinkReader(new URLSearchParams(text));
-  const { take, finish } = reader;
+  const reader = createLinkReader(hash);
+  const { take, takeSwitch, finish } = reader;
   const preset = take('scene', DEFAULT_PRESET, PRESET_IDS.join(', '), oneOf(PRESET_IDS));
   const models = modelsOf(preset);
   const levels = levelsOf(preset);
@@ -223,7 +222,6 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
   const range = take<MotionLink['heatRange']>('range', 'auto', 'auto or a percentage', (text) =>
     text === 'auto' ? 'auto' : oneOf(HEAT_RANGES)(text),
   );
-  const takeSwitch = (key: string) => take(key, 'off', 'on or off', oneOf(['on', 'off'])) === 'on';
   const [edges, springs, energy] = [
     takeSwitch('edges'),
     takeSwitch('springs'),
@@ -232,7 +230,7 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
   const coarse = take('coarse', 0, `0 to ${MOST_COARSE}`, wholeNumber(0, MOST_COARSE));
   const [usualMaker = ''] = LEVEL_MAKERS.slice(-1);
   const coarseAs = take('coarse_as', usualMaker, LEVEL_MAKERS.join(', '), oneOf(LEVEL_MAKERS));
-  const usualStart = text === '' ? FIRST_VISIT_START_S : 0;
+  const usualStart = /^#?$/.test(hash) ? FIRST_VISIT_START_S : 0;
   const startSteps = takeStart(reader, setting.stepS, usualStart);
   const compare = takeSwitch('compare');
   const camera = take<Pose | null>('camera', null, 'six numbers', poseIn);

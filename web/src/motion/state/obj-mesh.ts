@@ -1,7 +1,9 @@
 // A mesh from an OBJ file: how its threads run, what holds it, and the world around it.
+
 import type { Triple } from '../../shared/bindings/geometry';
 import type { ObjAnswer } from '../../shared/bindings/pleat-module';
 import type { ObjUnit } from '../../shared/state/obj-file';
+import { boxOf, minus } from '../../shared/state/vectors';
 
 /** "highest", "nothing", or "group:" and the name of a group of the mesh. */
 export type Hold = 'highest' | 'nothing' | `group:${string}`;
@@ -46,12 +48,8 @@ const FLOOR_BELOW = 0.1;
 
 type Box = Pick<ObjMesh, 'low' | 'high'>;
 
-function extentOf({ low, high }: Box): Triple {
-  return [high[0] - low[0], high[1] - low[1], high[2] - low[2]];
-}
-
 export function liesFlat(box: Box): boolean {
-  const [width, height, depth] = extentOf(box);
+  const [width, height, depth] = minus(box.high, box.low);
   return height < FLAT_HEIGHT * Math.max(width, depth);
 }
 
@@ -94,7 +92,7 @@ function pinsOf(mesh: ObjMesh, wanted: Hold): object[] {
 
 /** Cloth, pins and solids of a scene: the mesh above a floor. */
 export function objScene(mesh: ObjMesh, hold: Hold) {
-  const floor = mesh.low[1] - FLOOR_BELOW * Math.hypot(...extentOf(mesh));
+  const floor = mesh.low[1] - FLOOR_BELOW * Math.hypot(...minus(mesh.high, mesh.low));
   return {
     cloth: JSON.parse(mesh.clothText) as object,
     pins: pinsOf(mesh, hold),
@@ -107,13 +105,6 @@ export function deformedMesh(section: object, start: Float64Array): ObjMesh {
   const { mesh } = section as {
     mesh: { positions_m: Triple[]; triangles: unknown[]; groups?: object };
   };
-  const low: Triple = [Infinity, Infinity, Infinity];
-  const high: Triple = [-Infinity, -Infinity, -Infinity];
-  start.forEach((metres, index) => {
-    const axis = (index % 3) as 0 | 1 | 2;
-    low[axis] = Math.min(low[axis], metres);
-    high[axis] = Math.max(high[axis], metres);
-  });
   return {
     name: 'The pulled cloth',
     isOwn: true,
@@ -123,8 +114,7 @@ export function deformedMesh(section: object, start: Float64Array): ObjMesh {
     groups: Object.keys(mesh.groups ?? {}),
     nVertices: start.length / 3,
     nTriangles: mesh.triangles.length,
-    low,
-    high,
+    ...boxOf(start),
     threads: 'texture',
     start,
   };

@@ -28,20 +28,6 @@ import {
 import { type Knit, knitOf, knitSection } from './knit';
 import { type Hold, type ObjMesh, objScene } from './obj-mesh';
 
-export type PresetId =
-  | 'curtain'
-  | 'swags'
-  | 'tearing-curtain'
-  | 'flag'
-  | 'tablecloth'
-  | 'swinging-sheet'
-  | 'free-fall-drape'
-  | 'wind'
-  | 'ball'
-  | 'pendulum'
-  | 'wool'
-  | 'obj';
-
 /** Values by the keys of the table of details. */
 export type Details = Readonly<Record<string, DetailValue>>;
 
@@ -141,7 +127,18 @@ function presetFrom(title: string, text: string): Preset {
   return { title, caption: scene.caption, scene };
 }
 
-export const PRESETS: Record<PresetId, Preset> = {
+const OBJ: Preset = {
+  title: 'Your OBJ',
+  scene: {
+    ...(JSON.parse(skirtText) as SceneFile),
+    // A mesh of some thousand triangles keeps up with the clock, or nearly.
+    method: { stepper: 'implicit', step_s: 1 / 60, substeps: 1, tolerance: 0.01 },
+  },
+  caption:
+    'Any triangle mesh becomes cloth. Drop an OBJ file anywhere on this page, or choose one; until then a half-circle skirt stands in.',
+};
+
+export const PRESETS = {
   curtain: presetFrom('Curtain', curtainText),
   swags: presetFrom('Curtain on three hooks', swagsText),
   'tearing-curtain': presetFrom('Tearing curtain', tearingCurtainText),
@@ -153,17 +150,9 @@ export const PRESETS: Record<PresetId, Preset> = {
   ball: presetFrom('Ball', ballText),
   pendulum: presetFrom('Pendulum 10 × 10', pendulumText),
   wool: presetFrom('Wool on a ball', woolText),
-  obj: {
-    title: 'Your OBJ',
-    scene: {
-      ...(JSON.parse(skirtText) as SceneFile),
-      // A mesh of some thousand triangles keeps up with the clock, or nearly.
-      method: { stepper: 'implicit', step_s: 1 / 60, substeps: 1, tolerance: 0.01 },
-    },
-    caption:
-      'Any triangle mesh becomes cloth. Drop an OBJ file anywhere on this page, or choose one; until then a half-circle skirt stands in.',
-  },
+  obj: OBJ,
 };
+export type PresetId = keyof typeof PRESETS;
 
 export const PRESET_IDS = Object.keys(PRESETS) as PresetId[];
 

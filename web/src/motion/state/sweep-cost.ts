@@ -65,7 +65,7 @@ export function expectedSweepS(costs: StepCosts, shown: Setting, wish: SweepWish
   let sum = references;
   for (const level of sweptLevels(shown, wish)) {
     for (const method of methodsAt(level, shown.model, wish.withSlow)) {
-      const ms = stepMs(costs, settingOf(level, method, shown), shown);
+      const ms = stepMs(costs, settingOf({ level, method }, shown), shown);
       if (ms === null) return null;
       sum += (ms * durationS(shown) * (FIRST_ROUND + REPEATS)) / method.step_s;
     }

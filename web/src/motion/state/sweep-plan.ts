@@ -132,10 +132,9 @@ export function hasFinished(row: BenchRow): boolean {
   return row.status === 'ok' || row.status === 'not_converged';
 }
 
-/** A method at a level as a setting; the counts it does not name stay as they are. */
+/** The setting of a method at a level, as of a row; the counts it does not name stay as they are. */
 export function settingOf(
-  level: number,
-  method: Pick<BenchMethod, keyof PlannedMethod>,
+  { level, method }: { level: number; method: Pick<BenchMethod, keyof PlannedMethod> },
   present: Setting,
 ): Setting {
   const { stepper: name, step_s, substeps, iterations } = method;
@@ -150,9 +149,4 @@ export function settingOf(
     iterations: iterations ?? present.iterations,
     explicitShare: 0,
   };
-}
-
-/** The setting a row was measured with. */
-export function settingOfRow({ level, method }: BenchRow, present: Setting): Setting {
-  return settingOf(level, method, present);
 }

@@ -2,7 +2,7 @@
 import type { BenchRow } from '../bindings/sweep-module';
 import type { ObjMesh } from './obj-mesh';
 import { isSameMethod, type Setting } from './setting';
-import { hasFinished, settingOfRow } from './sweep-plan';
+import { hasFinished, settingOf } from './sweep-plan';
 
 /**
  * Says that errors have what the mesh does wrong in them; else that no reference on a finer mesh is shipped for
@@ -68,7 +68,7 @@ export function rowOfSetting({
 }): BenchRow | null {
   if (!isOf(sweep.scene, sweptScene(setting, mesh))) return null;
   const found = sweep.rows.find((row) => {
-    const measured = settingOfRow(row, setting);
+    const measured = settingOf(row, setting);
     return measured.level === setting.level && isSameMethod(measured, setting);
   });
   return found && hasFinished(found) ? found : null;

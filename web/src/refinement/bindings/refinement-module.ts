@@ -1,6 +1,5 @@
 // The classes bound by the WebAssembly module of garments, and the shape of the texts it answers with.
 import type { Triple } from '../../shared/bindings/geometry';
-import { methodsOf } from '../../shared/bindings/methods';
 import type { RunWarning } from '../../shared/bindings/run-warning';
 
 /** The answer of `GarmentRun.load`. */
@@ -148,45 +147,3 @@ export interface RefinementModule {
   GarmentRun: new (fabricsText: string) => GarmentRunHandle;
   ExampleStudy: new (fabricsText: string) => ExampleStudyHandle;
 }
-
-export const REFINEMENT_METHODS: Record<keyof RefinementModule, string[]> = {
-  GarmentRun: methodsOf<GarmentRunHandle>({
-    load: true,
-    reset: true,
-    step: true,
-    put: true,
-    holdAgainst: true,
-    putSample: true,
-    status: true,
-    costs: true,
-    warnings: true,
-    look: true,
-    compare: true,
-    compareSurface: true,
-    addFolds: true,
-    folds: true,
-    compareFolds: true,
-    faults: true,
-    solids: true,
-    time: true,
-    positions: true,
-    triangles: true,
-    triangleFaces: true,
-    edges: true,
-    hanging: true,
-    faces: true,
-    parents: true,
-    curvature: true,
-    distances: true,
-    delete: true,
-  }),
-  ExampleStudy: methodsOf<ExampleStudyHandle>({
-    open: true,
-    parents: true,
-    addFrame: true,
-    features: true,
-    sort: true,
-    plan: true,
-    delete: true,
-  }),
-};

@@ -1,5 +1,6 @@
 // The demand or the number of vertices, whichever was moved last; and the source of the frames.
 import { checkBox, element, field, setText } from '../../shared/panels/element';
+import { addSection, noteLine } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import { DEMANDS, type Doing, type RefinementState } from '../state/refinement-state';
 import { sourceSentence, vertices } from './garment-words';
@@ -38,7 +39,7 @@ export function createDetailPanel(
   parent: HTMLElement,
   store: Store<RefinementState>,
   actions: { cancel(): void },
-): () => void {
+): void {
   const { input: demand, show: showDemand } = slider(
     { min: DEMANDS.least, max: DEMANDS.most, step: DEMANDS.step },
     (value) => store.set({ rule: 'demand', demand: value }),
@@ -55,10 +56,10 @@ export function createDetailPanel(
     store.set({ useRecords }),
   );
   const fine = checkBox('Fine mesh in step', (computeFine) => store.set({ computeFine }));
-  const source = element('p', { class: 'note' });
+  const source = noteLine();
   const work = element('div');
   const isOwn = ({ share, canCancel }: Doing) => share === null && canCancel;
-  const closeWork = createWork(work, store, actions, isOwn);
+  createWork(work, store, actions, isOwn);
   const sayDemand = () => setText(demandValue, `${demand.valueAsNumber} mm`);
   const sayBudget = () => {
     const text = vertices(budget.valueAsNumber);
@@ -67,20 +68,18 @@ export function createDetailPanel(
   };
   demand.addEventListener('told', sayDemand);
   budget.addEventListener('told', sayBudget);
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'How fine' },
-      element('h2', {}, 'How fine'),
-      demandField,
-      budgetField,
-      work,
-      records.label,
-      fine.label,
-      source,
-    ),
+  addSection(
+    parent,
+    'How fine',
+    element('h2', {}, 'How fine'),
+    demandField,
+    budgetField,
+    work,
+    records.label,
+    fine.label,
+    source,
   );
-  const close = watch(
+  watch(
     store,
     ['rule', 'demand', 'budget', 'budgetRange', 'plan', 'useRecords', 'computeFine', 'panes'],
     (state) => {
@@ -99,8 +98,4 @@ export function createDetailPanel(
       setText(source, sourceSentence(state));
     },
   );
-  return () => {
-    close();
-    closeWork();
-  };
 }

@@ -10,7 +10,7 @@ export function createFitPanel(
   parent: HTMLElement,
   store: Store<RefinementState>,
   actions: { cancel(): void },
-): () => void {
+): void {
   const light = element('span', { class: 'fit-light', 'aria-hidden': 'true' });
   const title = element('b');
   const detail = element('p', { class: 'note fit-detail' });
@@ -40,22 +40,14 @@ export function createFitPanel(
     actions.cancel();
     anew.focus();
   };
-  const closeWork = createWork(below, store, { cancel }, ({ share }) => share !== null);
-  const close = watch(
-    store,
-    ['fit', 'plan', 'phase', 'doing', 'motion', 'fabric', 'further'],
-    (state) => {
-      const reading = fitReading(state.fit, state.plan && planStory(state.plan));
-      light.dataset.light = reading.light;
-      setText(title, reading.title);
-      setText(detail, reading.detail);
-      anew.setAttribute('aria-disabled', String(!canPlanAnew(state)));
-      reason.hidden = typeof state.doing?.share === 'number';
-      setText(reason, anewSentence(state));
-    },
-  );
-  return () => {
-    close();
-    closeWork();
-  };
+  createWork(below, store, { cancel }, ({ share }) => share !== null);
+  watch(store, ['fit', 'plan', 'phase', 'doing', 'motion', 'fabric', 'further'], (state) => {
+    const reading = fitReading(state.fit, state.plan && planStory(state.plan));
+    light.dataset.light = reading.light;
+    setText(title, reading.title);
+    setText(detail, reading.detail);
+    anew.setAttribute('aria-disabled', String(!canPlanAnew(state)));
+    reason.hidden = typeof state.doing?.share === 'number';
+    setText(reason, anewSentence(state));
+  });
 }

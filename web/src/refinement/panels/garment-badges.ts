@@ -1,6 +1,8 @@
 // Badges of what each pane shows: its mesh, what a frame costs, and how far it is from fine. Where there is no room
 // for all three, what stands beside fine can be chosen.
+
 import { element, setText } from '../../shared/panels/element';
+import { createSegments } from '../../shared/panels/segments';
 import { type Store, watch } from '../../shared/state/store';
 import {
   type GarmentPane,
@@ -13,27 +15,23 @@ import {
 import { costWords, errorWords, hintedSubsteps, vertices, warningWords } from './garment-words';
 
 function createChoiceBeside(store: Store<RefinementState>) {
-  const options = (['rival', 'planned'] as const).map((id) => {
-    const input = element('input', {
-      type: 'radio',
-      name: 'beside-fine',
-      change: () => store.set({ beside: id }),
-    });
-    return { id, input, title: element('span') };
-  });
-  const control = element(
-    'div',
-    { class: 'segments beside', role: 'radiogroup', 'aria-label': 'Beside the fine mesh' },
-    ...options.map(({ input, title }) => element('label', {}, input, title)),
+  const { control, setOptions, select } = createSegments<'rival' | 'planned'>(
+    'beside-fine',
+    { class: 'segments beside', 'aria-label': 'Beside the fine mesh' },
+    (beside) => store.set({ beside }),
   );
+  let shown = '';
   return {
     control,
     show({ isNarrow, beside, rival }: RefinementState, nShown: number) {
       control.hidden = !isNarrow || nShown < 2;
-      for (const { id, input, title } of options) {
-        input.checked = id === beside;
-        setText(title, PANE_TITLES[id === 'rival' ? rival : id]);
-      }
+      if (rival !== shown)
+        setOptions([
+          { value: 'rival', title: PANE_TITLES[rival] },
+          { value: 'planned', title: PANE_TITLES.planned },
+        ]);
+      shown = rival;
+      select(beside);
     },
   };
 }
@@ -56,10 +54,7 @@ function createWarning(store: Store<RefinementState>) {
   };
 }
 
-export function createGarmentBadges(
-  parent: HTMLElement,
-  store: Store<RefinementState>,
-): () => void {
+export function createGarmentBadges(parent: HTMLElement, store: Store<RefinementState>): void {
   const { control, show: showChoice } = createChoiceBeside(store);
   const grid = element('div', { class: 'panes garment-panes' });
   parent.append(control, grid);
@@ -80,7 +75,7 @@ export function createGarmentBadges(
     grid.append(cell);
     return { id, cell, count, cost, error, showWarning };
   });
-  return watch(
+  watch(
     store,
     ['panes', 'phase', 'isNarrow', 'beside', 'rival', 'computeFine', 'fineCloth'],
     (state) => {

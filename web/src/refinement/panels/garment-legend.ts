@@ -33,10 +33,7 @@ function patternWords({ plan }: RefinementState): string[] {
   });
 }
 
-export function createGarmentLegend(
-  parent: HTMLElement,
-  store: Store<RefinementState>,
-): () => void {
+export function createGarmentLegend(parent: HTMLElement, store: Store<RefinementState>): void {
   const title = element('p', { class: 'legend-title' });
   const keys = element('div');
   const bar = element('span', { class: 'legend-bar', 'aria-hidden': 'true' });
@@ -51,7 +48,7 @@ export function createGarmentLegend(
     scale,
   );
   parent.append(legend);
-  return watch(store, ['colour', 'ranges', 'plan'], (state) => {
+  watch(store, ['colour', 'ranges', 'plan'], (state) => {
     const { colour, ranges } = state;
     legend.hidden = colour === 'material';
     const isScale = colour === 'curvature' || colour === 'distance';

@@ -1,6 +1,7 @@
 // Garment, motion, fabric; what to notice; what is coloured.
 import { fabrics } from '../../shared/fabric/fabric-data';
 import { checkBox, choice, element, field, setText } from '../../shared/panels/element';
+import { addSection, noteLine } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import { USUAL_DEMANDS_MM } from '../state/garment-frames';
 import { GARMENTS, METHODS, MOTIONS, methodsOf, usualFabric } from '../state/garments';
@@ -31,16 +32,12 @@ function createLook(store: Store<RefinementState>) {
   const fineCloth = checkBox('The fine cloth on every mesh', (isOn) =>
     store.set({ fineCloth: isOn }),
   );
-  const clothNote = element(
-    'p',
-    { class: 'note' },
+  const clothNote = noteLine(
     'Each mesh shows the fine run’s shape as well as its faces can: a fold that is missing now is too fine for them.',
   );
   const edges = checkBox('Edges of the faces', (isOn) => store.set({ edges: isOn }));
   const hanging = checkBox('Hanging vertices', (isOn) => store.set({ hanging: isOn }));
-  const hangingNote = element(
-    'p',
-    { class: 'note' },
+  const hangingNote = noteLine(
     'A hanging vertex lies in the middle of a larger face’s edge and stays there: it is no unknown.',
   );
   return {
@@ -64,7 +61,7 @@ function createLook(store: Store<RefinementState>) {
   };
 }
 
-export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementState>): () => void {
+export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementState>): void {
   const notice = element('p', { class: 'caption' });
   const garment = choice(GARMENTS, (value) =>
     store.set({
@@ -88,24 +85,22 @@ export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementS
     store.set({ rival: value, startS: store.get().timeS }),
   );
   const look = createLook(store);
-  parent.append(
+  addSection(
+    parent,
+    'Garment and motion',
+    notice,
     element(
-      'section',
-      { 'aria-label': 'Garment and motion' },
-      notice,
-      element(
-        'div',
-        { class: 'garment-choices' },
-        field('Garment', garment.control),
-        field('Fabric', fabric.control),
-      ),
-      field('Motion', motion.control),
-      methodField,
-      field('Uniform mesh beside', rival.control),
-      ...look.controls,
+      'div',
+      { class: 'garment-choices' },
+      field('Garment', garment.control),
+      field('Fabric', fabric.control),
     ),
+    field('Motion', motion.control),
+    methodField,
+    field('Uniform mesh beside', rival.control),
+    ...look.controls,
   );
-  return watch(
+  watch(
     store,
     [
       'garment',

@@ -27,8 +27,8 @@ export function createGarmentToolbar(
   store: Store<RefinementState>,
   run: Playable,
   actions: GarmentToolActions,
-): () => void {
-  const stopTools = createRunTools(parent, store, run, actions.homeView, WORDS, isAtRest);
+): void {
+  createRunTools(parent, store, run, actions.homeView, WORDS, isAtRest);
   const hem = button('Hem', actions.hemView, {
     title: 'Look closely at the hem, where folds are (M)',
   });
@@ -41,12 +41,8 @@ export function createGarmentToolbar(
   const time = element('output', { class: 'toolbar-time', 'aria-live': 'off' });
   parent.append(hem, picture, obj, time);
 
-  const stop = watch(store, ['phase', 'timeS', 'endS'], ({ phase, timeS, endS }) => {
+  watch(store, ['phase', 'timeS', 'endS'], ({ phase, timeS, endS }) => {
     for (const made of [hem, picture, obj]) made.disabled = !isAtRest(phase);
     setText(time, endS > 0 ? `${timeS.toFixed(2)} s of ${endS.toFixed(0)} s` : '');
   });
-  return () => {
-    stopTools();
-    stop();
-  };
 }

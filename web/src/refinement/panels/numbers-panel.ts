@@ -1,10 +1,12 @@
 // Panel of what the finer meshes cost and buy, in a sentence and in a table.
+
 import { element, setText } from '../../shared/panels/element';
 import { milliseconds, percent, smallLength } from '../../shared/panels/quantity';
+import { addSection, folded, noteLine } from '../../shared/panels/section';
+import { heading, numberCell, rowOf, tableOf } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
 import { comparedPanes, type PaneId, type RefinementState } from '../state/refinement-state';
 import { levelsSentence, lossSentence, ONE_MORE_LEVEL } from './garment-words';
-import { heading, numberCell } from './table-parts';
 
 function degrees(angle: number | null): string {
   return angle === null ? '–' : `${((180 / Math.PI) * angle).toFixed(1)}°`;
@@ -27,17 +29,15 @@ function costCells(state: RefinementState, part: 'contact' | 'dynamics'): HTMLEl
 function numberTable(state: RefinementState): HTMLElement {
   const { panes, rival, floor } = state;
   const nFine = panes.fine.nVertices;
-  const row = (title: string, cells: HTMLElement[]) =>
-    element('tr', {}, element('th', { scope: 'row' }, title), ...cells);
+  const row = (title: string, cells: HTMLElement[]) => rowOf(title, ...cells);
   const cells = (text: (id: PaneId) => string) =>
     comparedPanes(state).map((id) => numberCell(text(id)));
   /** A distance from fine; in its own column how far a second fine run is. */
   const held = (key: 'foldsM' | 'surfaceM') =>
     cells((id) => smallLength(id === 'fine' ? (floor?.[key] ?? null) : panes[id][key]));
-  return element(
-    'table',
-    { class: 'quantities number-table' },
-    element('caption', { class: 'unseen' }, 'Three meshes in numbers'),
+  return tableOf(
+    'quantities number-table',
+    'Three meshes in numbers',
     heading('', rival, 'multi', 'fine'),
     element(
       'tbody',
@@ -81,29 +81,21 @@ function numberTable(state: RefinementState): HTMLElement {
 const MEANING =
   'Shape lost: with every vertex where the same point of the fine cloth is, how far the faces between them are from it, root mean square, and by what angle they are turned. It is the mesh’s own fault, without chance. Folds: how far they stand out around the garment, by their number, over all frames from 2 s on; and the surfaces now. In the column of fine: the same of a second fine run, in air heavier by a millionth. Then: vertices inside the body, and edges that go through the cloth itself, which nothing prevents. A frame is 1/30 s.';
 
-export function createNumbersPanel(parent: HTMLElement, store: Store<RefinementState>): () => void {
+export function createNumbersPanel(parent: HTMLElement, store: Store<RefinementState>): void {
   const levels = element('p');
   const loss = element('p');
   const { before, link, hash, after } = ONE_MORE_LEVEL;
   const table = element('div');
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'Numbers' },
-      element('h2', {}, 'What it buys'),
-      levels,
-      element('p', { class: 'one-more-level' }, before, element('a', { href: hash }, link), after),
-      loss,
-      element(
-        'details',
-        {},
-        element('summary', {}, 'In numbers'),
-        table,
-        element('p', { class: 'note' }, MEANING),
-      ),
-    ),
+  addSection(
+    parent,
+    'Numbers',
+    element('h2', {}, 'What it buys'),
+    levels,
+    element('p', { class: 'one-more-level' }, before, element('a', { href: hash }, link), after),
+    loss,
+    folded('In numbers', {}, table, noteLine(MEANING)),
   );
-  return watch(store, ['panes', 'rival', 'floor'], (state) => {
+  watch(store, ['panes', 'rival', 'floor'], (state) => {
     setText(levels, levelsSentence(state));
     setText(loss, lossSentence(state));
     table.replaceChildren(numberTable(state));

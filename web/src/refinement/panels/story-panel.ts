@@ -1,31 +1,30 @@
 // The plan in words and in a small table, and why the face that was asked about is as fine as it is.
+
 import { element, setText } from '../../shared/panels/element';
+import { addSection } from '../../shared/panels/section';
+import { heading, numberCell, rowOf, tableOf } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
 import { faceAt, faceStory, planStory } from '../state/plan-file';
 import { PANE_TITLES, type RefinementState } from '../state/refinement-state';
 import type { GarmentMesh } from '../worker/garment-protocol';
 import { fromTo, storySentences } from './garment-words';
 import { PATTERN_COLOURS } from './paints';
-import { heading, numberCell } from './table-parts';
 
 /** Pattern, curvature in the example, how many coarse vertices. */
 function patternTable({ plan }: RefinementState): HTMLElement {
   const rows = (plan ? planStory(plan).patterns : []).map((pattern, index) => {
     const key = element('span', { class: 'legend-key' });
     key.style.background = PATTERN_COLOURS[index] ?? '';
-    return element(
-      'tr',
-      {},
-      element('th', { scope: 'row' }, key, String(index)),
+    return rowOf(
+      [key, String(index)],
       numberCell(fromTo(pattern.meansPerM)),
       numberCell(fromTo(pattern.deviationsPerM)),
       numberCell(String(pattern.nVertices)),
     );
   });
-  return element(
-    'table',
-    { class: 'quantities pattern-table' },
-    element('caption', { class: 'unseen' }, 'Patterns, curvature in 1/m'),
+  return tableOf(
+    'quantities pattern-table',
+    'Patterns, curvature in 1/m',
     heading('Pattern', 'mean 1/m', 'deviation', 'vertices'),
     element('tbody', {}, ...rows),
   );
@@ -41,21 +40,12 @@ export function createStoryPanel(
   parent: HTMLElement,
   store: Store<RefinementState>,
   plannedMesh: () => GarmentMesh | null,
-): () => void {
+): void {
   const sentences = element('p');
   const patterns = element('div');
   const face = element('p', { class: 'face-story', 'aria-live': 'polite' });
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'The plan' },
-      element('h2', {}, 'The plan’s story'),
-      sentences,
-      patterns,
-      face,
-    ),
-  );
-  return watch(store, ['plan', 'face', 'phase'], (state) => {
+  addSection(parent, 'The plan', element('h2', {}, 'The plan’s story'), sentences, patterns, face);
+  watch(store, ['plan', 'face', 'phase'], (state) => {
     setText(sentences, state.plan ? storySentences(planStory(state.plan)) : '');
     patterns.replaceChildren(patternTable(state));
     setText(face, faceText(state, plannedMesh()));

@@ -9,13 +9,13 @@ export function createWork(
   store: Store<RefinementState>,
   actions: { cancel(): void },
   isOwn: (doing: Doing) => boolean,
-): () => void {
+): void {
   const what = element('p', { class: 'note', role: 'status' });
   const progress = element('progress', { max: 1, 'aria-label': 'Work in progress' });
   const cancel = button('Cancel', () => actions.cancel());
   const work = element('div', { class: 'work' }, what, progress, cancel);
   parent.append(work);
-  return watch(store, ['doing'], ({ doing }) => {
+  watch(store, ['doing'], ({ doing }) => {
     const own = doing && isOwn(doing) ? doing : null;
     work.hidden = own === null;
     setText(what, own?.what ?? '');

@@ -1,6 +1,6 @@
 // Starts the workers of garments: one for each pane, and one for the examples.
-import { type Asked, createAsked } from '../../shared/workers/asked';
-import { withCore } from '../../shared/workers/compiled-core';
+import type { Asked } from '../../shared/workers/asked';
+import { startAsked } from '../../shared/workers/compiled-core';
 import type {
   ExampleAnswers,
   GarmentAnswers,
@@ -12,17 +12,13 @@ export type GarmentClient = Asked<ToGarment, GarmentAnswers>;
 export type ExampleClient = Asked<ToExample, ExampleAnswers>;
 
 export function startGarmentWorker(): GarmentClient {
-  return createAsked(
-    withCore(
-      new Worker(new URL('../worker/garment-worker.ts', import.meta.url), { type: 'module' }),
-    ),
+  return startAsked(
+    new Worker(new URL('../worker/garment-worker.ts', import.meta.url), { type: 'module' }),
   );
 }
 
 export function startExampleWorker(): ExampleClient {
-  return createAsked(
-    withCore(
-      new Worker(new URL('../worker/example-worker.ts', import.meta.url), { type: 'module' }),
-    ),
+  return startAsked(
+    new Worker(new URL('../worker/example-worker.ts', import.meta.url), { type: 'module' }),
   );
 }

@@ -1,7 +1,7 @@
 // Plans for a garment: the usual one comes with the page, others are made of the recorded example and of
 // motions that are run here.
 import { fabricsText } from '../../shared/fabric/fabric-data';
-import { fetched } from '../../shared/page/fetched';
+import { fetchedBytes } from '../../shared/page/fetched';
 import {
   FINE_LEVEL,
   FRAME_S,
@@ -21,14 +21,10 @@ import {
 } from '../state/garments';
 import type { PlanFile } from '../state/plan-file';
 import type { RefinementState } from '../state/refinement-state';
-import type { PlanWish } from '../worker/garment-protocol';
+import type { ExampleScene, PlanWish } from '../worker/garment-protocol';
 import { type ExampleClient, startExampleWorker } from './garment-client';
 import { exampleUrls } from './records';
 import { type FetchBytes, sceneFiles } from './scene-files';
-
-export async function fetchedBytes(url: string): Promise<ArrayBuffer> {
-  return (await fetched(url)).arrayBuffer();
-}
 
 export type Wish = Pick<
   RefinementState,
@@ -43,12 +39,7 @@ export function isUsual({ garment, further, rule, demand, budget }: Wish): boole
 /** Hears how much of an example has run. */
 export type Progress = (motion: MotionId, share: number) => void;
 
-export interface Planner {
-  /** Rejects when an example cannot be had. */
-  plan(wish: Wish, progress?: Progress): Promise<PlanFile>;
-  /** Gives up what is being planned; the next plan starts anew. */
-  cancel(): void;
-}
+export type Planner = Pick<ExamplePlanner, 'plan' | 'cancel'>;
 
 /** The examples that the worker has, or is getting. */
 interface Opened extends Pick<Wish, 'garment' | 'fabric'> {
@@ -71,42 +62,44 @@ interface Seen {
   toS: number;
 }
 
+async function exampleScene(
+  garment: GarmentId,
+  motion: MotionId,
+  fabric: string,
+  fetchBytes: FetchBytes,
+): Promise<ExampleScene> {
+  return {
+    fabricsText,
+    sceneText: sceneText(garment, motion, fabric, { level: FINE_LEVEL }),
+    files: await sceneFiles(garment, fetchBytes),
+    name: exampleName(garment, motion, fabric),
+    nPatterns: PATTERNS,
+  };
+}
+
 async function openExample(to: ExampleClient, garment: GarmentId, fetchBytes: FetchBytes) {
   const urls = exampleUrls(garment);
   if (!urls) throw new Error('no example of this garment comes with the page');
-  const [features, frames, files] = await Promise.all([
+  const [features, frames, scene] = await Promise.all([
     fetchBytes(urls.features),
     fetchBytes(urls.frames),
-    sceneFiles(garment, fetchBytes),
+    exampleScene(garment, MOTIONS[0].value, usualFabric(garment), fetchBytes),
   ]);
-  const { value: motion } = MOTIONS[0];
-  const fabric = usualFabric(garment);
-  await to.ask(
-    {
-      type: 'open',
-      fabricsText,
-      sceneText: sceneText(garment, motion, fabric, { level: FINE_LEVEL }),
-      files,
-      name: exampleName(garment, motion, fabric),
-      nPatterns: PATTERNS,
-      features,
-      frames,
-    },
-    [features, frames],
-  );
+  await to.ask({ type: 'open', ...scene, features, frames }, [features, frames]);
 }
 
-class ExamplePlanner implements Planner {
+export class ExamplePlanner {
   private client: ExampleClient | null = null;
   private opened: Opened | null = null;
   private progress: Progress = () => undefined;
 
   constructor(
-    private readonly start: () => ExampleClient,
-    private readonly fetchBytes: FetchBytes,
-    private readonly seen: Seen,
+    private readonly start: () => ExampleClient = startExampleWorker,
+    private readonly fetchBytes: FetchBytes = fetchedBytes,
+    private readonly seen: Seen = { fromS: SETTLED_S, toS: SETTLED_S + SEEN_S },
   ) {}
 
+  /** Rejects when an example cannot be had. */
   async plan(wish: Wish, progress: Progress = () => undefined): Promise<PlanFile> {
     const { garment, rule, demand, budget } = wish;
     this.progress = progress;
@@ -123,6 +116,7 @@ class ExamplePlanner implements Planner {
     return (await client.ask({ type: 'plan', wish: asked })).plan;
   }
 
+  /** Gives up what is being planned; the next plan starts anew. */
   cancel(): void {
     this.client?.terminate();
     this.client = null;
@@ -166,11 +160,7 @@ class ExamplePlanner implements Planner {
     this.progress(motion, 0);
     let { share } = await client.ask({
       type: 'begin',
-      fabricsText,
-      sceneText: sceneText(garment, motion, fabric, { level: FINE_LEVEL }),
-      files: await sceneFiles(garment, this.fetchBytes),
-      name: exampleName(garment, motion, fabric),
-      nPatterns: PATTERNS,
+      ...(await exampleScene(garment, motion, fabric, this.fetchBytes)),
       frameS: FRAME_S,
       ...this.seen,
       keptOf: KEPT_OF,
@@ -180,16 +170,4 @@ class ExamplePlanner implements Planner {
       share = (await client.ask({ type: 'goOn' })).share;
     }
   }
-}
-
-export function createPlanner(
-  start = startExampleWorker,
-  fetchBytes: FetchBytes = fetchedBytes,
-  seen: Seen = { fromS: SETTLED_S, toS: SETTLED_S + SEEN_S },
-): Planner {
-  const planner = new ExamplePlanner(start, fetchBytes, seen);
-  return {
-    plan: (wish, progress) => planner.plan(wish, progress),
-    cancel: () => planner.cancel(),
-  };
 }

@@ -1,4 +1,5 @@
 // Runs the three panes of a garment in step: turns changes of the state into loads, plans and frames.
+
 import {
   describe,
   type Failure,
@@ -7,6 +8,7 @@ import {
   Refused,
 } from '../../shared/bindings/answers';
 import { brokenFailure } from '../../shared/bindings/refusals';
+import { fetchedBytes } from '../../shared/page/fetched';
 import { type Clock, createClock, DISPLAY, type Display } from '../../shared/state/clock';
 import { type IsCurrent, Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
@@ -22,7 +24,7 @@ import {
 } from '../state/refinement-state';
 import { startGarmentWorker } from './garment-client';
 import { type PaneParts, PaneSet, type TrioView } from './pane-set';
-import { createPlanner, fetchedBytes, type Planner } from './planner';
+import { ExamplePlanner, type Planner } from './planner';
 
 /** The parts of the browser that a trio needs: tests have their own. */
 export interface TrioParts extends PaneParts, Display {
@@ -39,7 +41,7 @@ const BROWSER: TrioParts = {
   ...DISPLAY,
   start: startGarmentWorker,
   fetchBytes: fetchedBytes,
-  planner: createPlanner(),
+  planner: new ExamplePlanner(),
 };
 
 function failureOf(error: unknown): Failure {

@@ -79,17 +79,18 @@ function frame({ surroundings, control }: PaneStage, centre: Vector3): void {
 }
 
 /** The clothes on their body, and what is drawn of them. */
-class Stage {
-  readonly clothes: GradedCloth[] = Array.from({ length: N_PANES }, createGradedCloth);
-  readonly body = createBody();
-  readonly stage: PaneStage;
-  areEdgesShown = false;
-  areHangingShown = false;
-  onPicture: ((picture: Blob | null) => void) | null = null;
+export class GarmentStage {
+  private readonly clothes: GradedCloth[] = Array.from({ length: N_PANES }, createGradedCloth);
+  private readonly body = createBody();
+  private readonly stage: PaneStage;
+  private areEdgesShown = false;
+  private areHangingShown = false;
+  private onPicture: ((picture: Blob | null) => void) | null = null;
   private shown: readonly number[] = [];
   private isFramed = false;
   private colours = { line: '#000000', dot: '#000000' };
 
+  /** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */
   constructor(
     parent: HTMLElement,
     private readonly canvas: HTMLCanvasElement,
@@ -116,7 +117,23 @@ class Stage {
     this.stage.open();
   }
 
-  /** Side by side, as people stand: they are higher than wide. */
+  setMesh(pane: number, mesh: GarmentMesh): void {
+    this.clothes[pane]?.setMesh(mesh);
+    this.stage.redraw();
+  }
+
+  showFrame(pane: number, buffer: ArrayBuffer): void {
+    this.clothes[pane]?.setFrame(buffer);
+    this.stage.redraw();
+  }
+
+  setSolids({ cones, pelvis_m: pelvis }: SolidsAnswer): void {
+    this.body.setCones(cones);
+    if (pelvis) this.follow(new Vector3(...pelvis));
+    this.stage.redraw();
+  }
+
+  /** The panes that have a place, from left to right: side by side, as people are higher than wide. */
   setPanes(panes: readonly number[]): void {
     this.shown = panes;
     this.stage.grid.set(panes.length, panes.length);
@@ -124,28 +141,37 @@ class Stage {
     this.stage.redraw();
   }
 
-  project(vertex: number, pane: number): { x: number; y: number } {
-    return this.stage.grid.project(this.positions(pane), vertex, this.shown.indexOf(pane));
-  }
-
-  showLines(): void {
-    for (const cloth of this.clothes) {
-      cloth.setEdges(this.areEdgesShown, this.colours.line);
-      cloth.setHanging(this.areHangingShown, this.colours.dot);
-    }
+  setPaint(pane: number, paint: Paint): void {
+    this.clothes[pane]?.setPaint(paint);
     this.stage.redraw();
   }
 
-  follow(pelvis: Vector3): void {
-    // The height stays: who squats goes down in the picture.
-    const centre = new Vector3(pelvis.x, MIDDLE_M, pelvis.z);
-    if (!this.isFramed) frame(this.stage, centre);
-    this.isFramed = true;
-    this.stage.control.follow(centre);
-    this.stage.surroundings.follow(centre.x, centre.z);
+  setEdges(isShown: boolean): void {
+    this.areEdgesShown = isShown;
+    this.showLines();
   }
 
-  lookAtHem(pane: number): void {
+  setHanging(isShown: boolean): void {
+    this.areHangingShown = isShown;
+    this.showLines();
+  }
+
+  setFabric(fabricId: number): void {
+    for (const cloth of this.clothes) cloth.setLook(lookOf(fabricId));
+    this.stage.redraw();
+  }
+
+  setChosen(pane: number, face: number | null): void {
+    this.clothes[pane]?.setChosen(face);
+    this.stage.redraw();
+  }
+
+  homeView(): void {
+    this.stage.control.home();
+  }
+
+  /** Close to the lower edge of a pane's cloth, as it is now. */
+  hemView(pane: number): void {
     const places = this.positions(pane);
     let low = Number.POSITIVE_INFINITY;
     for (let k = 1; k < places.length; k += 3) low = Math.min(low, places[k] as number);
@@ -162,6 +188,44 @@ class Stage {
 
   positions(pane: number): Float32Array {
     return this.clothes[pane]?.positions() ?? new Float32Array(0);
+  }
+
+  triangles(pane: number): Uint32Array {
+    return this.clothes[pane]?.triangles() ?? new Uint32Array(0);
+  }
+
+  scalars(pane: number): Float32Array {
+    return this.clothes[pane]?.scalars() ?? new Float32Array(0);
+  }
+
+  /** Pixels from the canvas's upper left corner to a vertex. */
+  project(vertex: number, pane: number): { x: number; y: number } {
+    return this.stage.grid.project(this.positions(pane), vertex, this.shown.indexOf(pane));
+  }
+
+  /** The picture as it is, as a PNG. */
+  picture(): Promise<Blob | null> {
+    return new Promise((resolve) => {
+      this.onPicture = resolve;
+      this.stage.redraw();
+    });
+  }
+
+  private showLines(): void {
+    for (const cloth of this.clothes) {
+      cloth.setEdges(this.areEdgesShown, this.colours.line);
+      cloth.setHanging(this.areHangingShown, this.colours.dot);
+    }
+    this.stage.redraw();
+  }
+
+  private follow(pelvis: Vector3): void {
+    // The height stays: who squats goes down in the picture.
+    const centre = new Vector3(pelvis.x, MIDDLE_M, pelvis.z);
+    if (!this.isFramed) frame(this.stage, centre);
+    this.isFramed = true;
+    this.stage.control.follow(centre);
+    this.stage.surroundings.follow(centre.x, centre.z);
   }
 
   private paneIn(place: number): number {
@@ -186,69 +250,3 @@ class Stage {
     this.showLines();
   }
 }
-
-/** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */
-export function createGarmentStage(
-  parent: HTMLElement,
-  canvas: HTMLCanvasElement,
-  events: GarmentStageEvents,
-) {
-  const own = new Stage(parent, canvas, events);
-  const { clothes, stage } = own;
-  const { redraw } = stage;
-  return {
-    setMesh(pane: number, mesh: GarmentMesh) {
-      clothes[pane]?.setMesh(mesh);
-      redraw();
-    },
-    showFrame(pane: number, buffer: ArrayBuffer) {
-      clothes[pane]?.setFrame(buffer);
-      redraw();
-    },
-    setSolids({ cones, pelvis_m: pelvis }: SolidsAnswer) {
-      own.body.setCones(cones);
-      if (pelvis) own.follow(new Vector3(...pelvis));
-      redraw();
-    },
-    /** The panes that have a place, from left to right. */
-    setPanes: (panes: readonly number[]) => own.setPanes(panes),
-    setPaint(pane: number, paint: Paint) {
-      clothes[pane]?.setPaint(paint);
-      redraw();
-    },
-    setEdges(isShown: boolean) {
-      own.areEdgesShown = isShown;
-      own.showLines();
-    },
-    setHanging(isShown: boolean) {
-      own.areHangingShown = isShown;
-      own.showLines();
-    },
-    setFabric(fabricId: number) {
-      for (const cloth of clothes) cloth.setLook(lookOf(fabricId));
-      redraw();
-    },
-    setChosen(pane: number, face: number | null) {
-      clothes[pane]?.setChosen(face);
-      redraw();
-    },
-    homeView: stage.control.home,
-    /** Close to the lower edge of a pane's cloth, as it is now. */
-    hemView: (pane: number) => own.lookAtHem(pane),
-    redraw,
-    positions: (pane: number) => own.positions(pane),
-    triangles: (pane: number) => clothes[pane]?.triangles() ?? new Uint32Array(0),
-    scalars: (pane: number) => clothes[pane]?.scalars() ?? new Float32Array(0),
-    /** Pixels from the canvas's upper left corner to a vertex. */
-    project: (vertex: number, pane: number) => own.project(vertex, pane),
-    /** The picture as it is, as a PNG. */
-    picture() {
-      return new Promise<Blob | null>((resolve) => {
-        own.onPicture = resolve;
-        redraw();
-      });
-    },
-  };
-}
-
-export type GarmentStage = ReturnType<typeof createGarmentStage>;

@@ -1,26 +1,18 @@
 // The garments and motions on offer, and the scene of each pane.
 import liveSkirt from '../../../../assets/methods/live_skirt.json';
-import squat from '../../../../assets/motions/squat.json?raw';
-import turn from '../../../../assets/motions/turn.json?raw';
-import walkFast from '../../../../assets/motions/walk_fast.json?raw';
-import walkNormal from '../../../../assets/motions/walk_normal.json?raw';
-import skirtEven from '../../../../assets/scenes/garments/skirt_even_fast_walk.json?raw';
-import skirtFastWalk from '../../../../assets/scenes/garments/skirt_fast_walk.json?raw';
-import skirtSquat from '../../../../assets/scenes/garments/skirt_squat.json?raw';
-import skirtTurn from '../../../../assets/scenes/garments/skirt_turn.json?raw';
-import skirtWalk from '../../../../assets/scenes/garments/skirt_walk.json?raw';
-import slimTrousersEven from '../../../../assets/scenes/garments/slim_trousers_even_fast_walk.json?raw';
-import slimTrousersFastWalk from '../../../../assets/scenes/garments/slim_trousers_fast_walk.json?raw';
-import slimTrousersSquat from '../../../../assets/scenes/garments/slim_trousers_squat.json?raw';
-import slimTrousersTurn from '../../../../assets/scenes/garments/slim_trousers_turn.json?raw';
-import slimTrousersWalk from '../../../../assets/scenes/garments/slim_trousers_walk.json?raw';
-import trousersEven from '../../../../assets/scenes/garments/trousers_even_fast_walk.json?raw';
-import trousersFastWalk from '../../../../assets/scenes/garments/trousers_fast_walk.json?raw';
-import trousersSquat from '../../../../assets/scenes/garments/trousers_squat.json?raw';
-import trousersTurn from '../../../../assets/scenes/garments/trousers_turn.json?raw';
-import trousersWalk from '../../../../assets/scenes/garments/trousers_walk.json?raw';
 import type { HandedFiles } from '../bindings/refinement-module';
 import type { PlanFile } from './plan-file';
+
+const SCENES = import.meta.glob<string>('../../../../assets/scenes/garments/*.json', {
+  query: '?raw',
+  import: 'default',
+  eager: true,
+});
+
+const MOTION_TEXTS = import.meta.glob<string>(
+  '../../../../assets/motions/{squat,turn,walk_fast,walk_normal}.json',
+  { query: '?raw', import: 'default', eager: true },
+);
 
 export const GARMENTS = [
   { value: 'skirt', title: 'Skirt' },
@@ -45,42 +37,18 @@ export const METHODS = [
 ] as const;
 export type MethodId = (typeof METHODS)[number]['value'];
 
-const SCENES: Record<GarmentId, Record<MotionId, string>> = {
-  skirt: { walk: skirtWalk, fast_walk: skirtFastWalk, turn: skirtTurn, squat: skirtSquat },
-  trousers: {
-    walk: trousersWalk,
-    fast_walk: trousersFastWalk,
-    turn: trousersTurn,
-    squat: trousersSquat,
-  },
-  slim_trousers: {
-    walk: slimTrousersWalk,
-    fast_walk: slimTrousersFastWalk,
-    turn: slimTrousersTurn,
-    squat: slimTrousersSquat,
-  },
-};
-
-/** The motions that the scenes name. */
-export const MOTION_FILES: HandedFiles = {
-  '../../motions/walk_normal.json': walkNormal,
-  '../../motions/walk_fast.json': walkFast,
-  '../../motions/turn.json': turn,
-  '../../motions/squat.json': squat,
-};
-
-/** A mesh of other columns and rows, evenly as fine, with as many vertices as the usual plan's. */
-const EVEN_SCENES: Record<GarmentId, string> = {
-  skirt: skirtEven,
-  trousers: trousersEven,
-  slim_trousers: slimTrousersEven,
-};
+/** The motions, by the names that the scenes have for them. */
+export const MOTION_FILES: HandedFiles = Object.fromEntries(
+  Object.entries(MOTION_TEXTS).map(([path, text]) => [
+    path.replace(/^.*\/motions/, '../../motions'),
+    text,
+  ]),
+);
 
 /** Choice of the mesh that a garment is on. */
 export type GarmentMeshWish = { level: number } | { plan: PlanFile } | 'even';
 
 interface GarmentScene {
-  caption: string;
   cloth: object;
   fabric: { name: string };
   start: string;
@@ -89,19 +57,20 @@ interface GarmentScene {
   duration_s: number;
 }
 
-function sceneOf(garment: GarmentId, motion: MotionId): GarmentScene {
-  return JSON.parse(SCENES[garment][motion]) as GarmentScene;
+function sceneOf(garment: GarmentId, motion: MotionId | 'even_fast_walk'): GarmentScene {
+  const text = SCENES[`../../../../assets/scenes/garments/${garment}_${motion}.json`];
+  if (!text) throw new Error(`no scene of the ${garment} has a ${motion}`);
+  return JSON.parse(text) as GarmentScene;
 }
 
-/** The scene's parts by which a mesh is made, and where its cloth begins. */
+/**
+ * The scene's parts by which a mesh is made, and where its cloth begins. The even mesh has other columns and
+ * rows, evenly as fine, and as many vertices as the usual plan's.
+ */
 function meshParts(garment: GarmentId, mesh: GarmentMeshWish) {
   if (mesh !== 'even') return { refinement: mesh };
-  const { cloth, refinement, start } = JSON.parse(EVEN_SCENES[garment]) as GarmentScene;
+  const { cloth, refinement, start } = sceneOf(garment, 'even_fast_walk');
   return { cloth, refinement, start };
-}
-
-export function captionOf(garment: GarmentId, motion: MotionId): string {
-  return sceneOf(garment, motion).caption;
 }
 
 /** The fabric that a garment is made of when nobody says otherwise. */

@@ -21,7 +21,6 @@ import {
   RIVALS,
 } from './refinement-state';
 
-const ON_OFF = ['on', 'off'] as const;
 const LARGEST_BUDGET = 100000;
 const LATEST_START_S = 60;
 
@@ -80,13 +79,10 @@ export function encodeRefinementLink(link: RefinementLink): string {
 
 /** The state a link stands for; `problems` says in words what could not be read. */
 export function decodeRefinementLink(hash: string): { link: RefinementLink; problems: string[] } {
-  const { take, finish } = createLinkReader(new URLSearchParams(hash.replace(/^#/, '')));
-  const isOn = (key: string, usual: boolean) =>
-    take(key, usual ? 'on' : 'off', 'on or off', oneOf(ON_OFF)) === 'on';
+  const { take, takeSwitch, finish } = createLinkReader(hash, 'refinement');
   const valuesOf = <Value>(options: readonly { value: Value }[]) =>
     options.map(({ value }) => value);
   const usual = DEFAULT_LINK;
-  take('view', 'refinement', 'refinement', oneOf(['refinement']));
   const garments = valuesOf(GARMENTS);
   const garment = take('garment', usual.garment, garments.join(', '), oneOf(garments));
   const motions = valuesOf(MOTIONS);
@@ -114,12 +110,12 @@ export function decodeRefinementLink(hash: string): { link: RefinementLink; prob
     rival: take('beside', usual.rival, RIVALS.join(', '), oneOf(RIVALS)),
     method: take<MethodId>('method', usual.method, methods.join(', '), oneOf(methods)),
     substeps: take<number | null>('substeps', null, `1 to ${MOST_SUBSTEPS}`, substepsIn),
-    useRecords: isOn('records', usual.useRecords),
-    computeFine: isOn('fine', usual.computeFine),
-    fineCloth: isOn('fine-cloth', usual.fineCloth),
+    useRecords: takeSwitch('records', usual.useRecords),
+    computeFine: takeSwitch('fine', usual.computeFine),
+    fineCloth: takeSwitch('fine-cloth', usual.fineCloth),
     colour: take('colour', usual.colour, COLOURS.join(', '), oneOf(COLOURS)),
-    edges: isOn('edges', usual.edges),
-    hanging: isOn('hanging', usual.hanging),
+    edges: takeSwitch('edges', usual.edges),
+    hanging: takeSwitch('hanging', usual.hanging),
     speed: take<number>('speed', usual.speed, SPEEDS.join(', '), oneOf(SPEEDS)),
     startS: take('start', usual.startS, 'a time in seconds', startIn),
   };

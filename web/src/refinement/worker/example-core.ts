@@ -8,7 +8,7 @@ import {
   type RunStatus,
   read,
 } from '../../shared/bindings/answers';
-import { ModuleCore, type Post } from '../../shared/workers/serve';
+import { ModuleCore } from '../../shared/workers/serve';
 import type {
   ExampleStudyHandle,
   GarmentRunHandle,
@@ -38,9 +38,7 @@ export class ExampleCore extends ModuleCore<RefinementModule, ToExample, FromExa
 
   private async open(message: Message<'open'>): Promise<void> {
     this.study ??= new this.module.ExampleStudy(message.fabricsText);
-    const answer = granted<{ n_base_vertices: number; n_vertices: number }>(
-      this.study.open(message.sceneText, message.files),
-    );
+    granted(this.study.open(message.sceneText, message.files));
     const parents = this.study.parents().slice();
     const features = await readRecording(new Uint8Array(message.features), parents);
     const frames = await readRecording(new Uint8Array(message.frames), parents);
@@ -48,14 +46,11 @@ export class ExampleCore extends ModuleCore<RefinementModule, ToExample, FromExa
       throw new Error('the example is a record of another cloth');
     for (const frame of frames.frames) this.study.addFrame(frame);
     granted(this.study.sort(message.name, features.frames[0], message.nPatterns));
-    const { n_vertices: nFineVertices, n_base_vertices: nBaseVertices } = answer;
-    this.post({ type: 'opened', nFineVertices, nBaseVertices }, []);
   }
 
   private plan(owner: ExampleStudyHandle, message: Message<'plan'>): void {
-    const beginMs = this.nowMs();
     const { plan } = granted<{ plan: PlanFile }>(owner.plan(JSON.stringify(message.wish)));
-    this.post({ type: 'planned', plan, ms: this.nowMs() - beginMs }, []);
+    this.post({ type: 'planned', plan }, []);
   }
 
   private endRun(): void {
@@ -112,14 +107,6 @@ export class ExampleCore extends ModuleCore<RefinementModule, ToExample, FromExa
       case 'plan':
         return this.plan(this.study, message);
     }
-  }
-
-  constructor(
-    module: RefinementModule,
-    post: Post<FromExample>,
-    private readonly nowMs: () => number,
-  ) {
-    super(module, post);
   }
 
   close(): void {

@@ -6,6 +6,5 @@ import type { FromExample, ToExample } from './garment-protocol';
 
 serve<ToExample, FromExample>(
   self,
-  async (post) =>
-    new ExampleCore(await givenCore<RefinementModule>(), post, () => performance.now()),
+  async (post) => new ExampleCore(await givenCore<RefinementModule>(), post),
 );

@@ -101,7 +101,7 @@ export class GarmentCore extends ModuleCore<RefinementModule, ToGarment, FromGar
     }
     const isWatched = this.summary?.has_monitor === true && how !== 'still';
     const fit = isWatched ? payloadOf<FitAnswer>(owner.look()) : null;
-    this.post({ type: 'advanced', frame, fit, ended: reason }, []);
+    this.post({ type: 'advanced', fit, ended: reason }, []);
   }
 
   private reset(owner: GarmentRunHandle): void {
@@ -109,19 +109,17 @@ export class GarmentCore extends ModuleCore<RefinementModule, ToGarment, FromGar
     this.nFolded = 0;
   }
 
-  /** False when there is no such number. */
-  private fill(owner: GarmentRunHandle, message: Message<'describe'>, buffer: ArrayBuffer) {
+  private fill(
+    owner: GarmentRunHandle,
+    { scalar }: Message<'describe'>,
+    buffer: ArrayBuffer,
+  ): void {
     const views = frameViews(buffer);
     views.positions.set(owner.positions());
-    const { scalar } = message;
     const values =
       scalar === 'curvature' ? owner.curvature() : scalar === 'distance' ? owner.distances() : null;
-    if (values?.length === views.scalar.length) {
-      views.scalar.set(values);
-      return true;
-    }
-    views.scalar.fill(Number.NaN);
-    return false;
+    if (values?.length === views.scalar.length) views.scalar.set(values);
+    else views.scalar.fill(Number.NaN);
   }
 
   private folds(owner: GarmentRunHandle): Float64Array | null {
@@ -145,7 +143,7 @@ export class GarmentCore extends ModuleCore<RefinementModule, ToGarment, FromGar
     const nBytes = 4 * FLOATS_PER_VERTEX * (this.summary?.n_vertices ?? 0);
     const given = message.buffer;
     const buffer = given?.byteLength === nBytes ? given : new ArrayBuffer(nBytes);
-    const isKnown = this.fill(owner, message, buffer);
+    this.fill(owner, message, buffer);
     const isSought = reference !== null && message.wantsAll && !message.takesSample;
     const surface = isSought ? payloadOf<{ rms_m: number }>(owner.compareSurface(reference)) : null;
     const faults = message.wantsAll ? payloadOf<FaultsAnswer>(owner.faults()) : null;
@@ -156,7 +154,6 @@ export class GarmentCore extends ModuleCore<RefinementModule, ToGarment, FromGar
     const answer: Described = {
       type: 'described',
       buffer,
-      isKnown,
       compared,
       surfaceM: surface?.rms_m ?? null,
       folds: this.folds(owner),

@@ -66,10 +66,8 @@ export interface GarmentMesh {
 
 export interface Described {
   type: 'described';
-  /** Laid out as any frame is (frame.ts). */
+  /** Laid out as any frame is (frame.ts); its scalar is NaN where it is unknown. */
   buffer: ArrayBuffer;
-  /** NaN where the scalar is unknown. */
-  isKnown: boolean;
   /** Distances from the reference, and RMS between the surfaces. */
   compared: ComparedAnswer | null;
   surfaceM: number | null;
@@ -94,7 +92,6 @@ export interface Loaded {
 
 export interface Advanced {
   type: 'advanced';
-  frame: number;
   fit: FitAnswer | null;
   /** Why the run ended, or null. */
   ended: string | null;
@@ -113,42 +110,35 @@ export interface GarmentAnswers {
 /** The one number by which a plan is asked for. */
 export type PlanWish = { largest_loss_m: number } | { max_vertices: number };
 
+/** An example: its scene on the fine mesh, and what plans are to make of it. */
+export interface ExampleScene {
+  fabricsText: string;
+  sceneText: string;
+  files: HandedFiles;
+  name: string;
+  nPatterns: number;
+}
+
 export type ToExample =
-  | {
+  | (ExampleScene & {
       type: 'open';
-      fabricsText: string;
-      sceneText: string;
-      files: HandedFiles;
-      name: string;
-      nPatterns: number;
       /** The files of the features and of the frames that limits are taken from. */
       features: ArrayBuffer;
       frames: ArrayBuffer;
-    }
-  | {
-      /** An example more: the scene on the fine mesh, from its beginning. */
+    })
+  | (ExampleScene & {
+      /** An example more, from its beginning. */
       type: 'begin';
-      fabricsText: string;
-      sceneText: string;
-      files: HandedFiles;
-      name: string;
-      nPatterns: number;
       /** Time of a frame, of the last one before those that count, and of the last one. */
       frameS: number;
       fromS: number;
       toS: number;
       /** One in so many of the frames that count is kept for limits. */
       keptOf: number;
-    }
+    })
   /** A frame of it. */
   | { type: 'goOn' }
   | { type: 'plan'; wish: PlanWish };
-
-export interface ExampleOpened {
-  type: 'opened';
-  nFineVertices: number;
-  nBaseVertices: number;
-}
 
 /** The share of the example that has run; at 1 plans are made of it too. */
 export interface WentOn {
@@ -159,14 +149,13 @@ export interface WentOn {
 export interface Planned {
   type: 'planned';
   plan: PlanFile;
-  ms: number;
 }
 
-export type FromExample = ExampleOpened | WentOn | Planned | Refusal;
+export type FromExample = WentOn | Planned | Refusal;
 
 /** The answer to each question. */
 export interface ExampleAnswers {
-  open: ExampleOpened;
+  open: Done;
   begin: WentOn;
   goOn: WentOn;
   plan: Planned;

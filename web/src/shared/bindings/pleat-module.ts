@@ -1,6 +1,5 @@
 // The classes bound by the module of cloth in motion, and the shape of the texts they answer with.
 import type { Triple } from './geometry';
-import { methodsOf } from './methods';
 import type { RunWarning } from './run-warning';
 
 export interface SceneSummary {
@@ -201,44 +200,3 @@ export interface PleatModule {
   Scene: new (fabricsText: string) => SceneHandle;
   Simulation: new (fabricsText: string) => SimulationHandle;
 }
-
-export const PLEAT_METHODS: Record<keyof PleatModule, string[]> = {
-  Scene: methodsOf<SceneHandle>({
-    fabrics: true,
-    steppers: true,
-    parse: true,
-    studyResponse: true,
-    readObj: true,
-    delete: true,
-  }),
-  Simulation: methodsOf<SimulationHandle>({
-    load: true,
-    carryOver: true,
-    startFrom: true,
-    reset: true,
-    step: true,
-    status: true,
-    numbers: true,
-    positions: true,
-    exactPositions: true,
-    masses: true,
-    stretch: true,
-    distances: true,
-    setReference: true,
-    triangles: true,
-    openLedger: true,
-    closeLedger: true,
-    energies: true,
-    springEnds: true,
-    implicitSprings: true,
-    implicitShare: true,
-    makeLevels: true,
-    levelVertices: true,
-    levelEdges: true,
-    colliders: true,
-    grab: true,
-    moveGrab: true,
-    releaseGrab: true,
-    delete: true,
-  }),
-};

@@ -8,3 +8,7 @@ export async function fetched(url: string): Promise<Response> {
   if (!answer.ok) throw new Error(`${answer.status} ${answer.statusText}`.trim());
   return answer;
 }
+
+export async function fetchedBytes(url: string): Promise<ArrayBuffer> {
+  return (await fetched(url)).arrayBuffer();
+}

@@ -7,10 +7,10 @@ export function createAnnouncer<State>(
   parent: HTMLElement,
   store: Store<State>,
   sentenceFor: (state: State, previous: State) => string | null,
-): () => void {
+): void {
   const region = element('p', { class: 'unseen', role: 'status', 'aria-live': 'polite' });
   parent.append(region);
-  return store.subscribe((state, previous) => {
+  store.subscribe((state, previous) => {
     const sentence = sentenceFor(state, previous);
     if (sentence !== null) setText(region, sentence);
   });

@@ -4,38 +4,21 @@ function hasFile(event: DragEvent): boolean {
   return event.dataTransfer?.types.includes('Files') ?? false;
 }
 
-export function createDropTarget(
-  target: HTMLElement,
-  actions: { openObj(file: File): void },
-): () => void {
+/** Takes files while the view is shown. */
+export function createDropTarget(isShown: () => boolean, open: (file: File) => void): void {
+  const target = document.body;
   const show = (isDropping: boolean) => target.classList.toggle('dropping', isDropping);
-  const listeners: [keyof HTMLElementEventMap, (event: DragEvent) => void][] = [
-    [
-      'dragover',
-      (event) => {
-        if (!hasFile(event)) return;
-        event.preventDefault(); // or the browser would open the file itself
-        show(true);
-      },
-    ],
-    ['dragleave', (event) => show(event.relatedTarget !== null)],
-    [
-      'drop',
-      (event) => {
-        if (!hasFile(event)) return;
-        event.preventDefault();
-        show(false);
-        const [file] = event.dataTransfer?.files ?? [];
-        if (file) actions.openObj(file);
-      },
-    ],
-  ];
-  for (const [name, listener] of listeners) {
-    target.addEventListener(name, listener as (event: Event) => void);
-  }
-  return () => {
-    for (const [name, listener] of listeners) {
-      target.removeEventListener(name, listener as (event: Event) => void);
-    }
-  };
+  target.addEventListener('dragover', (event) => {
+    if (!hasFile(event)) return;
+    event.preventDefault(); // or the browser would open the file itself
+    show(true);
+  });
+  target.addEventListener('dragleave', (event) => show(event.relatedTarget !== null));
+  target.addEventListener('drop', (event) => {
+    if (!hasFile(event)) return;
+    event.preventDefault();
+    show(false);
+    const [file] = event.dataTransfer?.files ?? [];
+    if (file && isShown()) open(file);
+  });
 }

@@ -1,6 +1,6 @@
 // Building the document by hand, briefly.
 
-type Attributes = Record<string, string | number | boolean | ((event: Event) => void)>;
+export type Attributes = Record<string, string | number | boolean | ((event: Event) => void)>;
 
 /** An element with attributes (functions become listeners, false is left out) and children. */
 export function element<Tag extends keyof HTMLElementTagNameMap>(

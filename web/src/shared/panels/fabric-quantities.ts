@@ -1,4 +1,5 @@
 // A fabric's physical numbers with confidence, and where each comes from.
+
 import {
   confidenceMeaning,
   type FabricQuantity,
@@ -8,6 +9,7 @@ import {
 } from '../fabric/fabric-data';
 import { element } from './element';
 import { digits } from './quantity';
+import { numberCell } from './table-parts';
 
 /** The badge of a number that is not the fabric's. */
 const SCENE = 'this scene';
@@ -124,7 +126,7 @@ function row(fabric: FabricRecord, line: Line, own: OwnQuantities): HTMLElement 
     'tr',
     { title: `${line.meaning} Reported range: ${span.trim()}.` },
     element('th', { scope: 'row' }, line.title),
-    element('td', { class: 'number' }, shown),
+    numberCell(shown),
     element('td', {}, element('span', { class: `badge badge-${kind}`, title: origin }, badge)),
   );
 }

@@ -1,16 +1,22 @@
 // The keys, for those who do not use a pointer.
 import { element } from './element';
+import { addSection, folded, noteLine } from './section';
 
-type Keys = readonly (readonly [string, string])[];
+export type Keys = readonly (readonly [string, string])[];
+
+/** Keys that turn the view. */
+export const VIEW_KEYS: Keys = [
+  ['Arrows', 'turn the view'],
+  ['+ and -', 'closer, farther'],
+  ['Home', 'first view'],
+];
 
 /** Keys of a run that is looked at. */
 export const RUN_KEYS: Keys = [
   ['Space', 'play or pause'],
   ['.', 'one step'],
   ['R', 'reset'],
-  ['Arrows', 'turn the view'],
-  ['+ and -', 'closer, farther'],
-  ['Home', 'first view'],
+  ...VIEW_KEYS,
 ];
 
 /** Keys of a run whose cloth can be taken. */
@@ -20,19 +26,11 @@ export const HAND_KEYS: Keys = [
   ['G or Escape', 'let go'],
 ];
 
-export function createKeyList(parent: HTMLElement, keys: Keys): () => void {
+export function createKeyList(parent: HTMLElement, keys: Keys): void {
   const list = element('dl', { class: 'keys' });
   for (const [key, meaning] of keys) {
     list.append(element('dt', {}, element('kbd', {}, key)), element('dd', {}, meaning));
   }
-  const box = element(
-    'details',
-    {},
-    element('summary', {}, 'Keys'),
-    element('p', { class: 'note' }, 'They work while the picture has the focus.'),
-    list,
-  );
-  const section = element('section', { 'aria-label': 'Keys' }, box);
-  parent.append(section);
-  return () => section.remove();
+  const box = folded('Keys', {}, noteLine('They work while the picture has the focus.'), list);
+  addSection(parent, 'Keys', box);
 }

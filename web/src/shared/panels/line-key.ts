@@ -1,4 +1,5 @@
 // Look of a line of a chart, for a list of marks.
+import './line-key.css';
 import { element, svg } from './element';
 
 /** A piece of the line, which `kind` styles, and its title. */

@@ -1,5 +1,6 @@
 // A table of numbers beside a chart, in a box that scrolls.
 import { element } from './element';
+import { tableOf } from './table-parts';
 
 export interface NumberTable {
   box: HTMLElement;
@@ -11,13 +12,7 @@ export interface NumberTable {
 export function createNumberTable(label: string, caption: string, kind = ''): NumberTable {
   const head = element('tr');
   const rows = element('tbody');
-  const table = element(
-    'table',
-    { class: `rows ${kind}`.trim() },
-    element('caption', { class: 'unseen' }, caption),
-    element('thead', {}, head),
-    rows,
-  );
+  const table = tableOf(`rows ${kind}`.trim(), caption, element('thead', {}, head), rows);
   const named = { role: 'region', 'aria-label': label };
   return { box: element('div', { class: 'table-box', tabindex: 0, ...named }, table), head, rows };
 }

@@ -1,25 +1,28 @@
 // A button that asks for an OBJ file.
 import { button, element } from './element';
 
-export function createObjPicker(
-  parent: HTMLElement,
-  actions: { openObj(file: File): void },
-): () => void {
+/** A hidden picker of OBJ files, to be clicked; `label` names it. */
+export function filePicker(label: string, open: (files: File[]) => void, multiple = false) {
   const picker = element('input', {
     type: 'file',
     accept: '.obj',
+    multiple,
     hidden: true,
-    'aria-label': 'OBJ file',
+    'aria-label': label,
     change() {
-      const [file] = picker.files ?? [];
-      if (file) actions.openObj(file);
+      open([...(picker.files ?? [])]);
       picker.value = ''; // choosing the same file, mended, is a change again
     },
   });
-  const open = button('Choose an OBJ file', () => picker.click(), { class: 'wide' });
-  parent.append(open, picker);
-  return () => {
-    open.remove();
-    picker.remove();
-  };
+  return picker;
+}
+
+export function createObjPicker(parent: HTMLElement, actions: { openObj(file: File): void }): void {
+  const picker = filePicker('OBJ file', ([file]) => {
+    if (file) actions.openObj(file);
+  });
+  parent.append(
+    button('Choose an OBJ file', () => picker.click(), { class: 'wide' }),
+    picker,
+  );
 }

@@ -44,7 +44,7 @@ export function createRunTools<State extends RunState>(
   homeView: () => void,
   words: RunWords,
   canReset: (phase: string) => boolean,
-): () => void {
+): void {
   const play = toolButton('play', 'Play', 'Play or pause (space)', () => {
     if (store.get().playing) run.pause();
     else run.play();
@@ -58,7 +58,7 @@ export function createRunTools<State extends RunState>(
   speed.control.title = words.speed.charAt(0).toUpperCase() + words.speed.slice(1);
   parent.append(play.made, step.made, reset.made, speed.control, view.made);
 
-  return watch(store, ['playing', 'phase', 'speed'], ({ playing, phase, speed: now }) => {
+  watch(store, ['playing', 'phase', 'speed'], ({ playing, phase, speed: now }) => {
     if (playing) play.show('pause', 'Pause');
     else play.show('play', 'Play');
     const canRun = phase === 'ready' || phase === 'loading';

@@ -27,8 +27,6 @@ export interface HeldStageParts
   drawn(invitation: { x: number; y: number }): void;
 }
 
-export type HeldStage = ReturnType<typeof createHeldStage>;
-
 /** Call `stage.open()` once everything that draws is there. */
 export function createHeldStage(
   parent: HTMLElement,

@@ -1,38 +1,28 @@
 // Finds the point of the cloth that a ray meets first.
-
-export type Point = [number, number, number];
+import type { Triple } from '../bindings/geometry';
+import { cross, dot, minus, placeOf } from '../state/vectors';
 
 export interface Hit {
   /** Distance along the ray, in lengths of its direction. */
   distance: number;
-  point: Point;
+  point: Triple;
   /** Index in the list. */
   triangle: number;
   /** The corner of the met triangle that is nearest to the point. */
   vertex: number;
 }
 
-function at(values: Float32Array, vertex: number): Point {
-  return [values[3 * vertex] ?? 0, values[3 * vertex + 1] ?? 0, values[3 * vertex + 2] ?? 0];
-}
-
-function minus(a: Point, b: Point): Point {
-  return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-}
-
-function dot(a: Point, b: Point): number {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-function cross(a: Point, b: Point): Point {
-  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-}
-
 /**
  * Distance along the ray to a triangle from either side, or null.
  * Source: Möller and Trumbore, Fast, minimum storage ray-triangle intersection, JGT 2(1), 1997.
  */
-function meets(origin: Point, direction: Point, x0: Point, x1: Point, x2: Point): number | null {
+function meets(
+  origin: Triple,
+  direction: Triple,
+  x0: Triple,
+  x1: Triple,
+  x2: Triple,
+): number | null {
   const edge1 = minus(x1, x0);
   const edge2 = minus(x2, x0);
   const p = cross(direction, edge2);
@@ -51,15 +41,21 @@ function meets(origin: Point, direction: Point, x0: Point, x1: Point, x2: Point)
 export function pick(
   positions: Float32Array,
   triangles: Uint32Array,
-  origin: Point,
-  direction: Point,
+  origin: Triple,
+  direction: Triple,
 ): Hit | null {
   let nearest = Number.POSITIVE_INFINITY;
-  let corners: [number, number, number] | null = null;
+  let corners: Triple | null = null;
   let triangle = 0;
   for (let t = 0; t < triangles.length; t += 3) {
     const [a, b, c] = [triangles[t] ?? 0, triangles[t + 1] ?? 0, triangles[t + 2] ?? 0];
-    const distance = meets(origin, direction, at(positions, a), at(positions, b), at(positions, c));
+    const distance = meets(
+      origin,
+      direction,
+      placeOf(positions, a),
+      placeOf(positions, b),
+      placeOf(positions, c),
+    );
     if (distance !== null && distance < nearest) {
       nearest = distance;
       corners = [a, b, c];
@@ -67,13 +63,13 @@ export function pick(
     }
   }
   if (!corners) return null;
-  const point: Point = [
+  const point: Triple = [
     origin[0] + nearest * direction[0],
     origin[1] + nearest * direction[1],
     origin[2] + nearest * direction[2],
   ];
   const away = corners.map((vertex) => {
-    const offset = minus(at(positions, vertex), point);
+    const offset = minus(placeOf(positions, vertex), point);
     return dot(offset, offset);
   });
   const vertex = corners[away.indexOf(Math.min(...away))] ?? corners[0];
@@ -97,7 +93,7 @@ export function nearestSeen(
   point: { x: number; y: number },
   reach: number,
 ): number | null {
-  const row = (index: number, [x, y, z]: Point) =>
+  const row = (index: number, [x, y, z]: Triple) =>
     (matrix[index] ?? 0) * x +
     (matrix[index + 4] ?? 0) * y +
     (matrix[index + 8] ?? 0) * z +
@@ -105,7 +101,7 @@ export function nearestSeen(
   let nearest: number | null = null;
   let least = reach;
   for (let vertex = 0; 3 * vertex < positions.length; ++vertex) {
-    const place = at(positions, vertex);
+    const place = placeOf(positions, vertex);
     const w = row(3, place);
     if (w <= 0) continue; // the vertex is behind the eye
     const across = ((row(0, place) / w + 1) / 2) * width - point.x;

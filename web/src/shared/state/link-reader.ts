@@ -1,4 +1,4 @@
-// The parts of a link, each read by itself. One that cannot be read gives its default and one sentence.
+// The parts of a link, each by itself. One that cannot be read gives its default and one sentence.
 
 /** A name as it stands in a link: lower case, hyphens. */
 export function slug(name: string): string {
@@ -10,8 +10,9 @@ export function slug(name: string): string {
 
 export type LinkReader = ReturnType<typeof createLinkReader>;
 
-/** Reads one part of the link at a time and collects what was wrong with it. */
-export function createLinkReader(parameters: URLSearchParams) {
+/** Reads one part of the link at a time, of this view where it names one, and collects what was wrong with it. */
+export function createLinkReader(hash: string, view?: string) {
+  const parameters = new URLSearchParams(hash.replace(/^#/, ''));
   const problems: string[] = [];
   const known = new Set<string>();
 
@@ -30,6 +31,10 @@ export function createLinkReader(parameters: URLSearchParams) {
     return fallback;
   }
 
+  function takeSwitch(key: string, isUsual = false): boolean {
+    return take(key, isUsual ? 'on' : 'off', 'on or off', oneOf(['on', 'off'])) === 'on';
+  }
+
   function finish(): string[] {
     for (const key of new Set(parameters.keys())) {
       if (!known.has(key)) problems.push(`${key.slice(0, 40)}: not a known part`);
@@ -37,7 +42,8 @@ export function createLinkReader(parameters: URLSearchParams) {
     return problems;
   }
 
-  return { take, finish };
+  if (view !== undefined) take('view', view, view, oneOf([view]));
+  return { take, takeSwitch, finish };
 }
 
 export function oneOf<Value extends string | number>(values: readonly Value[]) {

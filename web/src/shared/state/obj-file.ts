@@ -103,3 +103,14 @@ export function oddSize(
   if (!likely || likely.value === unit) return odd;
   return `${odd} Its unit is probably ${likely.one}: choose that as the unit of the file.`;
 }
+
+/** The visitor's mesh, in the unit that it is taken in. */
+export interface OwnMesh {
+  file: ObjFile;
+  unit: ObjUnit;
+}
+
+/** What a view says of it. */
+export function ownMeshState({ file, unit }: OwnMesh) {
+  return { objName: file.name, objUnit: unit, objOdd: oddSize(file, unit) };
+}

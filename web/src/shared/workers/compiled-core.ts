@@ -1,5 +1,6 @@
 // The core's WebAssembly: the page fetches and compiles it once, and each worker instantiates what it is given.
 import address from '../../wasm/pleat.wasm?url';
+import { type AnswersTo, type Asked, createAsked, type Listener, type Message } from './asked';
 
 /** The first message to a worker. */
 export interface CoreLetter {
@@ -24,11 +25,15 @@ function compiledCore(): Promise<WebAssembly.Module> {
   return compiled;
 }
 
-/** Gives a new worker the compiled core; what fails on the way is an error of the worker. */
-export function withCore(worker: Worker): Worker {
+/** The page's end of a new worker, which is given the core; what fails on the way is an error of the worker. */
+export function startAsked<
+  Question extends Message,
+  Answers extends AnswersTo<Question>,
+  News = never,
+>(worker: Worker, listener?: Listener<News>): Asked<Question, Answers> {
   compiledCore().then(
     (core) => worker.postMessage({ core } satisfies CoreLetter),
     (error: Error) => worker.dispatchEvent(new ErrorEvent('error', { message: error.message })),
   );
-  return worker;
+  return createAsked(worker, listener);
 }

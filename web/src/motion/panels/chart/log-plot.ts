@@ -1,6 +1,7 @@
 // The axes of a chart with logarithms both ways.
 import { type LogScale, logScale } from '../../../shared/chart/log-scale';
 import { svg } from '../../../shared/panels/element';
+import { levelMarks, plotText, uprightTitle } from '../../../shared/panels/plot-parts';
 import { digits } from '../../../shared/panels/quantity';
 
 /** The sides of the field between the axes, in the units of the drawing. */
@@ -43,21 +44,18 @@ export function gridMarks({ field, across, upward, xOf, yOf }: Axes): SVGElement
   const { left, right, top, bottom } = field;
   const upright = (value: number, kind: string) =>
     svg('line', { x1: xOf(value), y1: top, x2: xOf(value), y2: bottom, class: kind });
-  const level = (value: number, kind: string) =>
-    svg('line', { x1: left, y1: yOf(value), x2: right, y2: yOf(value), class: kind });
-  const tick = (x: number, y: number, kind: string, value: number) =>
-    svg('text', { x, y, class: `tick ${kind}` }, digits(value, 1));
   return [
     ...across.minorTicks.map((value) => upright(value, 'grid-minor')),
-    ...upward.minorTicks.map((value) => level(value, 'grid-minor')),
+    ...upward.minorTicks.map((value) =>
+      svg('line', { x1: left, y1: yOf(value), x2: right, y2: yOf(value), class: 'grid-minor' }),
+    ),
     ...across.ticks.flatMap((value) => [
       upright(value, 'grid'),
-      tick(xOf(value), bottom + 17, 'tick-x', value),
+      plotText('tick tick-x', xOf(value), bottom + 17, digits(value, 1)),
     ]),
-    ...upward.ticks.flatMap((value) => [
-      level(value, 'grid'),
-      tick(left - 8, yOf(value) + 4, 'tick-y', value),
-    ]),
+    ...upward.ticks.flatMap((value) =>
+      levelMarks([left, right], yOf(value), digits(value, 1), 8, 'grid'),
+    ),
   ];
 }
 
@@ -67,10 +65,8 @@ export function axisTitles(
   x: string,
   y: string,
 ): SVGElement[] {
-  const middle = (top + bottom) / 2;
-  const turned = { x: 14, y: middle, transform: `rotate(-90 14 ${middle})` };
   return [
-    svg('text', { x: (left + right) / 2, y: bottom + 38, class: 'axis' }, x),
-    svg('text', { ...turned, class: 'axis' }, y),
+    plotText('axis', (left + right) / 2, bottom + 38, x),
+    uprightTitle(14, (top + bottom) / 2, y),
   ];
 }

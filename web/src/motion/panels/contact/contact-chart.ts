@@ -71,7 +71,7 @@ export function createContactChart(
   const plot = createTimePlot('contact-over-time');
   const legend = element(
     'ul',
-    { class: 'marks energy-keys' },
+    { class: 'marks line-keys' },
     lineKey('time-line response-resting', 'Rests: the normal velocity and force end'),
     lineKey('time-line response-uniform', 'Bounces: both are turned round'),
   );

@@ -1,15 +1,14 @@
 // Panel of what contact makes of cloth that comes down: shown where there are solids, studied while it is open.
-import { element } from '../../../shared/panels/element';
+import { folded } from '../../../shared/panels/section';
 import { type Store, watch } from '../../../shared/state/store';
 import { later } from '../../run/later';
 import type { MotionState } from '../../state/motion-state';
 
-export function createContactPanel(section: HTMLElement, store: Store<MotionState>): () => void {
-  const box = element(
-    'details',
-    { class: 'contact', toggle: () => void open() },
-    element('summary', {}, 'Contact: cloth that rests, and cloth that bounces'),
-  );
+export function createContactPanel(section: HTMLElement, store: Store<MotionState>): void {
+  const box = folded('Contact: cloth that rests, and cloth that bounces', {
+    class: 'contact',
+    toggle: () => void open(),
+  });
   section.append(box);
   const bring = later(store, 'The figure of contact', async () => {
     const { createContactChart } = await import('./contact-chart');
@@ -18,7 +17,7 @@ export function createContactPanel(section: HTMLElement, store: Store<MotionStat
   async function open(): Promise<void> {
     if (box.open) (await bring())?.follow();
   }
-  return watch(store, ['colliders'], ({ colliders }) => {
+  watch(store, ['colliders'], ({ colliders }) => {
     section.hidden = colliders.length === 0;
   });
 }

@@ -1,7 +1,10 @@
 // Has methods compared on one step, and shows what comes of it.
+
 import { button, choice, element, field, setText } from '../../../shared/panels/element';
 import { createNumberTable, fillHead } from '../../../shared/panels/number-table';
 import { digits, milliseconds } from '../../../shared/panels/quantity';
+import { folded, noteLine } from '../../../shared/panels/section';
+import { numberCell, rowOf } from '../../../shared/panels/table-parts';
 import { createStore, type Store, watch } from '../../../shared/state/store';
 import type { Constraints } from '../../bindings/convergence-module';
 import { ConvergenceRun } from '../../run/convergence-run';
@@ -67,13 +70,7 @@ function createTable() {
       fillHead(table, ['Method, rounds', 'Time', valueTitle]);
       const rows = ways.flatMap(({ title, points }) =>
         points.map(({ rounds, ms, left }) =>
-          element(
-            'tr',
-            {},
-            element('th', { scope: 'row' }, `${title}, ${rounds}`),
-            element('td', { class: 'number' }, milliseconds(ms)),
-            element('td', { class: 'number' }, digits(left, 2)),
-          ),
+          rowOf(`${title}, ${rounds}`, numberCell(milliseconds(ms)), numberCell(digits(left, 2))),
         ),
       );
       table.rows.replaceChildren(...rows);
@@ -88,7 +85,7 @@ function createWish(motion: Store<MotionState>, store: Store<ConvergenceState>):
     store.set({ begin });
   });
   const constraints = choice(CONSTRAINTS, (value) => store.set({ constraints: value }));
-  const words = element('p', { class: 'note' });
+  const words = noteLine();
   const render = () => {
     const { setting, summary } = motion.get();
     const isLarge = (summary?.n_vertices ?? 0) > MOST_COMPLIANT_VERTICES;
@@ -122,15 +119,15 @@ export function createConvergenceChart(
   const start = button('Compare methods on this step', () => void run.start(), wide);
   const cancel = button('Cancel', () => run.cancel(), wide);
   const progress = element('progress', { max: 1, 'aria-label': 'Progress of the comparison' });
-  const of = element('p', { class: 'note' });
+  const of = noteLine();
   const figure = element('figure', { class: 'chart' });
   const plot = createConvergencePlot(figure);
   const reading = element('p', { class: 'reading', 'aria-live': 'polite' });
   const table = createTable();
-  const asTable = element('details', {}, element('summary', {}, 'The same as a table'), table.box);
-  const note = element('p', { class: 'note' });
+  const asTable = folded('The same as a table', {}, table.box);
+  const note = noteLine();
   parent.append(
-    element('p', { class: 'note' }, WHAT),
+    noteLine(WHAT),
     createWish(motion, store),
     start,
     cancel,

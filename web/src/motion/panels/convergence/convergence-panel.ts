@@ -1,5 +1,5 @@
 // The comparison of methods on one step: it comes when it is first opened.
-import { element } from '../../../shared/panels/element';
+import { addSection, folded } from '../../../shared/panels/section';
 import type { Store } from '../../../shared/state/store';
 import { later } from '../../run/later';
 import type { MotionRun } from '../../run/motion-run';
@@ -10,12 +10,11 @@ export function createConvergencePanel(
   store: Store<MotionState>,
   run: Pick<MotionRun, 'rest'>,
 ): void {
-  const box = element(
-    'details',
-    { class: 'convergence', toggle: () => box.open && void bring() },
-    element('summary', {}, 'Convergence: one step by every method'),
-  );
-  parent.append(element('section', { 'aria-label': 'Convergence' }, box));
+  const box = folded('Convergence: one step by every method', {
+    class: 'convergence',
+    toggle: () => box.open && void bring(),
+  });
+  addSection(parent, 'Convergence', box);
   const bring = later(store, 'The comparison of methods', async () => {
     (await import('./convergence-chart')).createConvergenceChart(box, store, run);
   });

@@ -5,6 +5,8 @@ import { element, setText } from '../../../shared/panels/element';
 import { lineKey } from '../../../shared/panels/line-key';
 import { createNumberTable, fillHead, type NumberTable } from '../../../shared/panels/number-table';
 import { energyText, energyUnit } from '../../../shared/panels/quantity';
+import { folded, noteLine } from '../../../shared/panels/section';
+import { numberCell, rowOf } from '../../../shared/panels/table-parts';
 import { type Store, watch } from '../../../shared/state/store';
 import type { MotionState } from '../../state/motion-state';
 import { createTimePlot, type TimeChart } from '../chart/time-plot';
@@ -29,11 +31,9 @@ function fillTable(
 ): void {
   fillHead(table, ['Time', ...lines.map(({ title }) => title)]);
   const row = (sample: EnergyNumbers) =>
-    element(
-      'tr',
-      {},
-      element('th', { scope: 'row' }, `${sample.time_s.toFixed(2)}\u00a0s`),
-      ...lines.map((line) => element('td', { class: 'number' }, energyText(line.joules(sample)))),
+    rowOf(
+      `${sample.time_s.toFixed(2)}\u00a0s`,
+      ...lines.map((line) => numberCell(energyText(line.joules(sample)))),
     );
   table.rows.replaceChildren(...spread(samples).map(row));
 }
@@ -57,25 +57,18 @@ function energyChart(samples: readonly EnergyNumbers[], lines: readonly EnergyLi
   };
 }
 
-export function createEnergyChart(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createEnergyChart(parent: HTMLElement, store: Store<MotionState>): void {
   const plot = createTimePlot('energy-over-time');
-  const legend = element('ul', { class: 'marks energy-keys' });
+  const legend = element('ul', { class: 'marks line-keys' });
   const words = element('figcaption');
   const table = createNumberTable('Energies over time', 'Energies over time', 'energy-rows');
-  const asTable = element(
-    'details',
-    { toggle: () => render(store.get()) },
-    element('summary', {}, 'The same as a table'),
-    table.box,
-  );
+  const asTable = folded('The same as a table', { toggle: () => render(store.get()) }, table.box);
   const figure = element('figure', { class: 'chart' }, legend);
   figure.append(plot.root, words);
   parent.append(
     figure,
     asTable,
-    element(
-      'p',
-      { class: 'note' },
+    noteLine(
       'Height and losses count from where the account begins, so that all lines add up to the same at any time. Keeping the account takes time while this is open.',
     ),
   );
@@ -93,5 +86,5 @@ export function createEnergyChart(parent: HTMLElement, store: Store<MotionState>
     if (asTable.open) fillTable(table, energies, lines);
   }
   // Energies change with each frame, and are drawn as often as numbers can be read.
-  return watch(store, ['energy', 'numbers'], render);
+  watch(store, ['energy', 'numbers'], render);
 }

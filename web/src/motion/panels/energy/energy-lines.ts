@@ -2,17 +2,7 @@
 import type { EnergyNumbers } from '../../../shared/bindings/pleat-module';
 
 export interface EnergyLine {
-  kind:
-    | 'kinetic'
-    | 'elastic'
-    | 'gravity'
-    | 'damping'
-    | 'air'
-    | 'contact'
-    | 'pins'
-    | 'tears'
-    | 'drift'
-    | 'sum';
+  kind: Exclude<keyof EnergyNumbers, 'time_s' | 'start'> | 'sum';
   title: string;
   joules(numbers: EnergyNumbers): number;
 }

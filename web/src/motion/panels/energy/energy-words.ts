@@ -3,19 +3,18 @@
 import type { EnergyNumbers } from '../../../shared/bindings/pleat-module';
 import { energyText, percent } from '../../../shared/panels/quantity';
 
-const TAKERS: readonly { kind: 'damping' | 'air' | 'contact' | 'pins' | 'tears'; name: string }[] =
-  [
-    { kind: 'damping', name: 'damping' },
-    { kind: 'air', name: 'air' },
-    { kind: 'contact', name: 'contact' },
-    { kind: 'pins', name: 'pins and hand' },
-    { kind: 'tears', name: 'tears' },
-  ];
+const TAKERS = [
+  ['damping', 'damping'],
+  ['air', 'air'],
+  ['contact', 'contact'],
+  ['pins', 'pins and hand'],
+  ['tears', 'tears'],
+] as const;
 
 /** "damping took 3.1 mJ, pins and hand gave 0.2 J". */
 function worksText(now: EnergyNumbers): string {
-  const works = TAKERS.filter(({ kind }) => now[kind] !== 0).map(
-    ({ kind, name }) =>
+  const works = TAKERS.filter(([kind]) => now[kind] !== 0).map(
+    ([kind, name]) =>
       `${name} ${now[kind] < 0 ? 'took' : 'gave'} ${energyText(Math.abs(now[kind]))}`,
   );
   return works.length > 0 ? works.join(', ') : 'no force took any';

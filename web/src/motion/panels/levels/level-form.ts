@@ -1,5 +1,6 @@
 // Chooses the coarser level that is drawn over the cloth, and tells what it is.
 import { type Choice, choice, element, field, setText } from '../../../shared/panels/element';
+import { noteLine } from '../../../shared/panels/section';
 import { type Store, watch } from '../../../shared/state/store';
 import { stepperRow } from '../../../shared/steppers/steppers';
 import { LEVEL_MAKERS, levelWish, makerOf } from '../../state/coarse-levels';
@@ -15,7 +16,7 @@ const HOW = {
   thinned: 'A vertex went wherever two of its neighbours stay.',
 } as const;
 
-export function createLevelForm(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createLevelForm(parent: HTMLElement, store: Store<MotionState>): void {
   const shown = element('div', { class: 'pair' });
   const makers = choice(
     LEVEL_MAKERS.map((value) => ({ value, title: stepperRow(value).title })),
@@ -23,8 +24,8 @@ export function createLevelForm(parent: HTMLElement, store: Store<MotionState>):
   );
   const makerField = field('Made as by', makers.control);
   const words = element('p', { class: 'note', 'aria-live': 'polite' });
-  const how = element('p', { class: 'note' });
-  parent.append(shown, words, how, element('p', { class: 'note' }, WHY));
+  const how = noteLine();
+  parent.append(shown, words, how, noteLine(WHY));
 
   let levels: Choice<number> | null = null;
   let nOffered = -1;
@@ -39,7 +40,7 @@ export function createLevelForm(parent: HTMLElement, store: Store<MotionState>):
     shown.replaceChildren(field('Level', levels.control), makerField);
   }
 
-  return watch(
+  watch(
     store,
     ['coarse', 'coarseAs', 'coarseLevels', 'setting', 'summary'],
     ({ coarse, coarseAs, coarseLevels, setting, summary }) => {

@@ -23,7 +23,7 @@ function key(kind: 'kept' | 'out' | 'edge') {
   };
 }
 
-export function createLevelLegend(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createLevelLegend(parent: HTMLElement, store: Store<MotionState>): void {
   const title = element('p', { class: 'legend-title' });
   const [kept, out, edge] = [key('kept'), key('out'), key('edge')];
   const legend = element(
@@ -33,7 +33,7 @@ export function createLevelLegend(parent: HTMLElement, store: Store<MotionState>
     element('ul', { class: 'marks' }, kept.line, out.line, edge.line),
   );
   parent.append(legend);
-  return watch(store, ['coarse', 'coarseLevels', 'phase'], (state) => {
+  watch(store, ['coarse', 'coarseLevels', 'phase'], (state) => {
     const { coarse, coarseLevels, summary, phase } = state;
     const counts =
       coarse > 0 && coarseLevels && levelCounts(coarseLevels, coarse, summary?.n_vertices ?? 0);

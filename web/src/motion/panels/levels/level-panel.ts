@@ -1,20 +1,19 @@
 // Coarser levels of the cloth: what chooses them comes when it is first opened.
-import { element } from '../../../shared/panels/element';
+import { addSection, folded } from '../../../shared/panels/section';
 import { type Store, watch } from '../../../shared/state/store';
 import { later } from '../../run/later';
 import type { MotionState } from '../../state/motion-state';
 
-export function createLevelPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
-  const box = element(
-    'details',
-    { class: 'coarse', toggle: () => box.open && void bring() },
-    element('summary', {}, 'Levels: coarser meshes of the cloth'),
-  );
-  parent.append(element('section', { 'aria-label': 'Levels' }, box));
+export function createLevelPanel(parent: HTMLElement, store: Store<MotionState>): void {
+  const box = folded('Levels: coarser meshes of the cloth', {
+    class: 'coarse',
+    toggle: () => box.open && void bring(),
+  });
+  addSection(parent, 'Levels', box);
   const bring = later(store, 'What chooses a level', async () => {
     (await import('./level-form')).createLevelForm(box, store);
   });
-  return watch(store, ['coarse'], ({ coarse }) => {
+  watch(store, ['coarse'], ({ coarse }) => {
     if (coarse > 0) box.open = true;
   });
 }

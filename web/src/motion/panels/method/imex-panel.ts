@@ -32,7 +32,7 @@ export function createImexPanel(
   parent: HTMLElement,
   store: Store<MotionState>,
   run: Pick<MotionRun, 'implicitShare'>,
-): () => void {
+): void {
   const least = choice(SHARES, (explicitShare) =>
     store.set({ setting: { ...store.get().setting, explicitShare } }),
   );
@@ -40,18 +40,13 @@ export function createImexPanel(
   leastField.title = 'As many substeps more are taken as that asks for.';
   const words = element('p', { class: 'note imex-saving' });
   parent.append(leastField, words);
-  const source = new ImexSavingSource(store, (setting) => run.implicitShare(setting));
-  const stop = watch(store, ['imexSaving'], ({ imexSaving }) => {
+  new ImexSavingSource(store, (setting) => run.implicitShare(setting));
+  watch(store, ['imexSaving'], ({ imexSaving }) => {
     words.hidden = imexSaving === null;
     setText(words, imexSaving ? savingWords(imexSaving) : '');
   });
-  const stopShare = watch(store, ['setting'], ({ setting }) => {
+  watch(store, ['setting'], ({ setting }) => {
     leastField.hidden = setting.stepper !== 'imex';
     least.select(setting.explicitShare);
   });
-  return () => {
-    stop();
-    stopShare();
-    source.close();
-  };
 }

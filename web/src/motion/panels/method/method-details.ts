@@ -1,6 +1,7 @@
 // Choices of a method beside its counts, as the core's table tells it.
 import details from 'virtual:pleat-details';
 import { button, choice, element, field } from '../../../shared/panels/element';
+import { folded } from '../../../shared/panels/section';
 import { type Store, watch } from '../../../shared/state/store';
 import { type DetailValue, stepperRow } from '../../../shared/steppers/steppers';
 import type { MotionState } from '../../state/motion-state';
@@ -55,7 +56,7 @@ function detailField(detail: Detail, choose: Choose) {
   };
 }
 
-export function createMethodDetails(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createMethodDetails(parent: HTMLElement, store: Store<MotionState>): void {
   const fields = (details as readonly Detail[]).map((detail) =>
     detailField(detail, (value) =>
       store.set({ setting: withDetail(store.get().setting, detail.key, value) }),
@@ -70,16 +71,15 @@ export function createMethodDetails(parent: HTMLElement, store: Store<MotionStat
     },
     { class: 'wide' },
   );
-  const box = element(
-    'details',
+  const box = folded(
+    'More of this method',
     { class: 'method-details' },
-    element('summary', {}, 'More of this method'),
     ...fields.map((one) => one.box),
     usual,
   );
   box.open = store.get().setting.details !== undefined;
   parent.append(box);
-  return watch(store, ['setting'], ({ setting }) => {
+  watch(store, ['setting'], ({ setting }) => {
     box.hidden = Object.keys(stepperRow(setting.stepper).details).length === 0;
     for (const one of fields) one.show(setting);
   });

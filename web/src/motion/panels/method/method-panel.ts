@@ -1,6 +1,7 @@
 // The choice of a method: model, level, stepper, step, and the counts that the stepper reads.
 import { choice, element, field, setText } from '../../../shared/panels/element';
 import { shortTime, stepTitle } from '../../../shared/panels/quantity';
+import { addSection, folded, noteLine } from '../../../shared/panels/section';
 import { type Store, watch } from '../../../shared/state/store';
 import { canRun, type Model, STEPPERS, stepperRow } from '../../../shared/steppers/steppers';
 import { later } from '../../run/later';
@@ -112,24 +113,17 @@ function laterTray(
   store: Store<MotionState>,
   what: string,
   isDue: (setting: Setting) => boolean,
-  create: (tray: HTMLElement) => Promise<() => void>,
-) {
+  create: (tray: HTMLElement) => Promise<void>,
+): HTMLElement {
   const tray = element('div');
   const bring = later(store, what, () => create(tray));
-  let close: (() => void) | null = null;
-  const stop = watch(store, ['setting'], async ({ setting }) => {
-    if (isDue(setting)) close ??= await bring();
+  watch(store, ['setting'], ({ setting }) => {
+    if (isDue(setting)) void bring();
   });
-  return {
-    tray,
-    close() {
-      stop();
-      close?.();
-    },
-  };
+  return tray;
 }
 
-function laterTrays(store: Store<MotionState>, run: MotionRun) {
+function laterTrays(store: Store<MotionState>, run: MotionRun): HTMLElement[] {
   return [
     laterTray(
       store,
@@ -143,7 +137,7 @@ function laterTrays(store: Store<MotionState>, run: MotionRun) {
       ({ stepper }) => Object.keys(stepperRow(stepper).details).length > 0,
       async (tray) => (await import('./method-details')).createMethodDetails(tray, store),
     ),
-  ] as const;
+  ];
 }
 
 function countFields(store: Store<MotionState>) {
@@ -166,7 +160,7 @@ export function createMethodPanel(
   parent: HTMLElement,
   store: Store<MotionState>,
   run: MotionRun,
-): () => void {
+): void {
   function change(patch: Partial<Setting>): void {
     store.set({ setting: { ...store.get().setting, ...patch } });
   }
@@ -175,43 +169,32 @@ export function createMethodPanel(
     store.set({ setting: withModel(store.get().setting, chosen) }),
   );
   const level = levelPicker((chosen) => change({ level: chosen }));
-  const meshNote = element('p', { class: 'note' });
+  const meshNote = noteLine();
   const stepper = choice(STEPPER_CHOICES, (chosen) =>
     store.set({ setting: withStepper(store.get().setting, chosen) }),
   );
-  const stepperNote = element('p', { class: 'note' });
+  const stepperNote = noteLine();
   const step = choice(
     STEPS_PER_SECOND.map((count) => ({ value: count, title: `1/${count} s` })),
     (count) => change({ stepS: 1 / count }),
   );
   const counts = countFields(store);
-  const [imex, details] = laterTrays(store, run);
-  const builtNote = element('p', { class: 'note' });
-  const builtBox = element(
-    'details',
-    {},
-    element('summary', {}, 'What this scene needs'),
-    builtNote,
-  );
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'Method' },
-      model.group,
-      level.group,
-      meshNote,
-      field('Stepper', stepper.control, stepperNote),
-      element('div', { class: 'row' }, field('Step', step.control), ...counts.map((c) => c.box)),
-      imex.tray,
-      details.tray,
-      builtBox,
-    ),
+  const builtNote = noteLine();
+  const builtBox = folded('What this scene needs', {}, builtNote);
+  addSection(
+    parent,
+    'Method',
+    model.group,
+    level.group,
+    meshNote,
+    field('Stepper', stepper.control, stepperNote),
+    element('div', { class: 'row' }, field('Step', step.control), ...counts.map((c) => c.box)),
+    ...laterTrays(store, run),
+    builtBox,
   );
 
-  const stopCosts = watch(store, ['setting', 'costs'], ({ setting, costs }) =>
-    level.show(setting, costs),
-  );
-  const stopSetting = watch(store, ['setting'], ({ setting }) => {
+  watch(store, ['setting', 'costs'], ({ setting, costs }) => level.show(setting, costs));
+  watch(store, ['setting'], ({ setting }) => {
     const row = stepperRow(setting.stepper);
     model.show(setting);
     stepper.limit((value) => (canRun(value, setting.model) ? null : 'needs springs'));
@@ -222,7 +205,7 @@ export function createMethodPanel(
     setText(stepperNote, meanings.filter((meaning) => meaning).join(' '));
     for (const count of counts) count.show(setting);
   });
-  const stopSummary = watch(store, ['summary'], ({ summary, setting }) => {
+  watch(store, ['summary'], ({ summary, setting }) => {
     if (!summary) return;
     const { n_vertices, n_triangles, n_springs, n_bends, built, left_out, notes } = summary;
     const isAutomatic = setting.substeps === 0 || wantedShare(setting) > 0;
@@ -241,11 +224,4 @@ export function createMethodPanel(
     ];
     setText(builtNote, needs.filter((part) => part !== '').join(' '));
   });
-  return () => {
-    stopCosts();
-    stopSetting();
-    stopSummary();
-    imex.close();
-    details.close();
-  };
 }

@@ -129,7 +129,7 @@ export function createNumbersStrip(
   parent: HTMLElement,
   store: Store<MotionState>,
   actions: { bringReference(): void },
-): () => void {
+): void {
   const cells = ITEMS.map((item) => {
     const value = element('dd');
     const detail = element('dd', { class: 'detail' });
@@ -147,7 +147,7 @@ export function createNumbersStrip(
     element('dl', { class: 'numbers' }, ...cells.map(({ cell }) => cell)),
     verdict.line,
   );
-  return watch(
+  watch(
     store,
     [
       'numbers',

@@ -1,4 +1,5 @@
 // The choice of a fabric, its measured numbers, and where each comes from.
+
 import { fabricNamed, fabrics } from '../../../shared/fabric/fabric-data';
 import { lookOf } from '../../../shared/fabric/fabric-look';
 import { choice, element, field } from '../../../shared/panels/element';
@@ -7,11 +8,13 @@ import {
   quantityRows,
   sourceList,
 } from '../../../shared/panels/fabric-quantities';
+import { addSection, folded, noteLine } from '../../../shared/panels/section';
+import { tableOf } from '../../../shared/panels/table-parts';
 import { type Store, watch } from '../../../shared/state/store';
 import type { MotionState } from '../../state/motion-state';
 import { ownQuantities } from '../../state/setting';
 
-export function createFabricPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createFabricPanel(parent: HTMLElement, store: Store<MotionState>): void {
   const names = choice(
     fabrics.map((fabric) => ({
       value: fabric.name_en,
@@ -20,39 +23,22 @@ export function createFabricPanel(parent: HTMLElement, store: Store<MotionState>
     (fabric) => store.set({ setting: { ...store.get().setting, fabric } }),
   );
   const swatch = element('span', { class: 'swatch', 'aria-hidden': 'true' });
-  const construction = element('p', { class: 'note' });
+  const construction = noteLine();
   const sourceBody = element('div', {}, construction);
   const rows = element('tbody');
-  const sourcesBox = element(
-    'details',
-    {},
-    element('summary', {}, 'Where the numbers come from'),
-    sourceBody,
-  );
-  const table = element(
-    'table',
-    { class: 'quantities' },
-    element('caption', { class: 'unseen' }, 'Measured numbers of the fabric'),
-    rows,
-  );
-  const meaningBox = element(
-    'details',
-    {},
-    element('summary', {}, 'What the words mean'),
-    quantityMeanings(),
-  );
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'Fabric' },
-      field('Fabric', names.control, swatch),
-      table,
-      sourcesBox,
-      meaningBox,
-    ),
+  const sourcesBox = folded('Where the numbers come from', {}, sourceBody);
+  const table = tableOf('quantities', 'Measured numbers of the fabric', rows);
+  const meaningBox = folded('What the words mean', {}, quantityMeanings());
+  addSection(
+    parent,
+    'Fabric',
+    field('Fabric', names.control, swatch),
+    table,
+    sourcesBox,
+    meaningBox,
   );
   let shown = '';
-  return watch(store, ['setting'], ({ setting }) => {
+  watch(store, ['setting'], ({ setting }) => {
     const own = ownQuantities(setting);
     const wanted = JSON.stringify([setting.fabric, own]);
     if (wanted === shown) return;

@@ -1,6 +1,7 @@
 // The form of a knitted cloth: its particles, its springs and dampers, and its pattern.
 import { button, choice, element, field, setText } from '../../../shared/panels/element';
 import { digits } from '../../../shared/panels/quantity';
+import { folded, noteLine } from '../../../shared/panels/section';
 import { type Store, watch } from '../../../shared/state/store';
 import { stepperRow } from '../../../shared/steppers/steppers';
 import {
@@ -85,7 +86,7 @@ function numberField(place: KnitPlace, onChange: (value: number) => void) {
   };
 }
 
-export function createKnitForm(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createKnitForm(parent: HTMLElement, store: Store<MotionState>): void {
   const refused = element('p', { class: 'note', role: 'status' });
   function change(patch: Partial<Knit>): void {
     const { setting } = store.get();
@@ -104,8 +105,8 @@ export function createKnitForm(parent: HTMLElement, store: Store<MotionState>): 
     KNIT_PLACES.map((place) => [place, numberField(place, (value) => changeNumber(place, value))]),
   );
   const dampingPer = choice(DAMPING_UNITS, (value) => change({ dampingPer: value }));
-  const dampingNote = element('p', { class: 'note' });
-  const boundNote = element('p', { class: 'note' });
+  const dampingNote = noteLine();
+  const boundNote = noteLine();
   const lines = LINES.map((places) =>
     element('div', { class: 'row' }, ...places.flatMap((place) => fields.get(place)?.box ?? [])),
   );
@@ -114,20 +115,19 @@ export function createKnitForm(parent: HTMLElement, store: Store<MotionState>): 
     () => change(presetSetting(store.get().setting.preset).knit ?? {}),
     { class: 'wide' },
   );
-  const box = element(
-    'details',
+  const box = folded(
+    'Knit: particles, springs, pattern',
     { class: 'knit', open: true },
-    element('summary', {}, 'Knit: particles, springs, pattern'),
     ...lines.slice(0, -1),
     field('Damping is given in', dampingPer.control, dampingNote),
     ...lines.slice(-1),
     refused,
     boundNote,
-    element('p', { class: 'note' }, FABRIC_NOTE),
+    noteLine(FABRIC_NOTE),
     reset,
   );
   parent.append(box);
-  return watch(store, ['setting', 'summary'], (state) => {
+  watch(store, ['setting', 'summary'], (state) => {
     const { knit } = state.setting;
     box.hidden = !knit;
     if (!knit) return;

@@ -3,6 +3,7 @@ import { element, field, setText } from '../../../shared/panels/element';
 import { createObjPicker } from '../../../shared/panels/obj-picker';
 import { createObjUnit } from '../../../shared/panels/obj-unit';
 import { createReading } from '../../../shared/panels/reading';
+import { noteLine } from '../../../shared/panels/section';
 import { OBJ_UNITS, type ObjUnit } from '../../../shared/state/obj-file';
 import { type Store, watch } from '../../../shared/state/store';
 import type { MotionState } from '../../state/motion-state';
@@ -46,7 +47,7 @@ export function createObjPanel(
   parent: HTMLElement,
   store: Store<MotionState>,
   actions: ObjActions,
-): () => void {
+): void {
   const holds = element('select', {
     change() {
       const { setting } = store.get();
@@ -54,15 +55,15 @@ export function createObjPanel(
     },
   });
   const held = field('Held by', holds);
-  const note = element('p', { class: 'note' });
+  const note = noteLine();
   const box = element('div', { class: 'mesh' });
-  const closePicker = createObjPicker(box, { openObj: (file) => actions.open(file) });
+  createObjPicker(box, { openObj: (file) => actions.open(file) });
   const unit = createObjUnit((value) => actions.setUnit(value));
   const reading = createReading(() => actions.cancel());
   box.append(reading.box, unit.box, held, note);
   parent.append(box);
   let listed: ObjMesh | null = null;
-  const stop = watch(store, ['setting', 'mesh', 'reading'], ({ setting, mesh, reading: name }) => {
+  watch(store, ['setting', 'mesh', 'reading'], ({ setting, mesh, reading: name }) => {
     box.hidden = setting.preset !== 'obj' && name === null;
     reading.show(name);
     held.hidden = mesh === null;
@@ -78,8 +79,4 @@ export function createObjPanel(
     holds.value = holdFor(mesh, setting.hold);
     setText(note, sentences(mesh));
   });
-  return () => {
-    stop();
-    closePicker();
-  };
 }

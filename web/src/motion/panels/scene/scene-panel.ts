@@ -1,5 +1,6 @@
 // Choice of the scene, and the visitor's mesh or the form of a knit.
-import { choice, element, field } from '../../../shared/panels/element';
+import { choice, field } from '../../../shared/panels/element';
+import { addSection } from '../../../shared/panels/section';
 import { type Store, watch } from '../../../shared/state/store';
 import { later } from '../../run/later';
 import { AT_START, type MotionState } from '../../state/motion-state';
@@ -10,30 +11,23 @@ export function createScenePanel(
   parent: HTMLElement,
   store: Store<MotionState>,
   actions: ObjActions,
-): () => void {
+): void {
   const presets = choice(
     PRESET_IDS.map((value) => ({ value, title: PRESETS[value].title })),
     (preset) => store.set({ ...AT_START, setting: presetSetting(preset) }),
   );
-  const section = element('section', { 'aria-label': 'Scene' }, field('Scene', presets.control));
-  parent.append(section);
-  const stops: (() => void)[] = [];
+  const section = addSection(parent, 'Scene', field('Scene', presets.control));
   const makeObjPanel = later(store, 'The panel of your OBJ', async () => {
     const { createObjPanel } = await import('./obj-panel');
-    stops.push(createObjPanel(section, store, actions));
+    createObjPanel(section, store, actions);
   });
   const makeKnitForm = later(store, 'The form of the knit', async () => {
     const { createKnitForm } = await import('./knit-form');
-    stops.push(createKnitForm(section, store));
+    createKnitForm(section, store);
   });
-  stops.push(
-    watch(store, ['setting', 'reading'], ({ setting, reading }) => {
-      presets.select(setting.preset);
-      if (setting.preset === 'obj' || reading !== null) void makeObjPanel();
-      if (setting.knit) void makeKnitForm();
-    }),
-  );
-  return () => {
-    for (const one of stops) one();
-  };
+  watch(store, ['setting', 'reading'], ({ setting, reading }) => {
+    presets.select(setting.preset);
+    if (setting.preset === 'obj' || reading !== null) void makeObjPanel();
+    if (setting.knit) void makeKnitForm();
+  });
 }

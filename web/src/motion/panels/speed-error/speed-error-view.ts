@@ -1,13 +1,14 @@
 // The sweep's chart with its table beside it; a chosen point is run to the time that its error is of.
 import './speed-error.css';
 import { button, element, setText } from '../../../shared/panels/element';
+import { noteLine } from '../../../shared/panels/section';
 import { type Store, watch } from '../../../shared/state/store';
 import { STEPPERS } from '../../../shared/steppers/steppers';
 import type { BenchRow } from '../../bindings/sweep-module';
 import type { MotionRun } from '../../run/motion-run';
 import type { MotionState } from '../../state/motion-state';
 import { PRESETS } from '../../state/setting';
-import { durationS, hasFinished, settingOfRow } from '../../state/sweep-plan';
+import { durationS, hasFinished, settingOf } from '../../state/sweep-plan';
 import { rowOfSetting, type SweepState } from '../../state/sweep-state';
 import { legendItem, markOf } from '../chart/stepper-mark';
 import { errorSentence, headline, methodSentence } from './mesh-words';
@@ -82,24 +83,24 @@ export function createSpeedErrorView(
   parent: HTMLElement,
   store: Store<MotionState>,
   actions: Pick<MotionRun, 'showAnew'>,
-): () => void {
+): void {
   function use(index: number): void {
     const { sweep, setting } = store.get();
     const row = sweep.rows[index];
     if (!row || !sweep.scene) return;
     const { mesh, ...swept } = sweep.scene;
-    const measured = settingOfRow(row, { ...setting, ...swept });
+    const measured = settingOf(row, { ...setting, ...swept });
     const startSteps = Math.round(durationS(measured) / measured.stepS);
     const content = { setting: measured, startSteps, invited: false };
     actions.showAnew(mesh ? { ...content, mesh } : content);
   }
 
   const heading = element('h2');
-  const beside = element('p', { class: 'note' });
+  const beside = noteLine();
   const close = button('Close', () => store.set({ sweepOpen: false }));
   const figure = element('figure', { class: 'chart' });
   const plot = createSpeedErrorPlot(figure, use);
-  const note = element('p', { class: 'note' });
+  const note = noteLine();
   const legend = createLegend();
   figure.append(legend.list);
   const table = createSpeedErrorTable(use);
@@ -110,7 +111,7 @@ export function createSpeedErrorView(
     note,
   );
   let drawn = '';
-  return watch(store, ['sweep', 'sweepOpen', 'setting'], (state) => {
+  watch(store, ['sweep', 'sweepOpen', 'setting'], (state) => {
     parent.hidden = !state.sweepOpen;
     if (!state.sweepOpen) return;
     const { sweep } = state;

@@ -1,6 +1,7 @@
 // Starts and cancels the sweep, and tells how far it is.
 import { button, choice, element, field, setText } from '../../../shared/panels/element';
 import { shortTime } from '../../../shared/panels/quantity';
+import { addSection, noteLine } from '../../../shared/panels/section';
 import { type Store, watch } from '../../../shared/state/store';
 import type { Model } from '../../../shared/steppers/steppers';
 import type { Sweep } from '../../run/sweep';
@@ -67,7 +68,7 @@ export function createSweepPanel(
   store: Store<MotionState>,
   sweep: Sweep,
   showChart: () => void,
-): () => void {
+): void {
   const wish: SweepWish = { finest: FIRST_FINEST, withSlow: false };
   const levels = choice(FINEST, (level) => {
     wish.finest = level;
@@ -89,33 +90,29 @@ export function createSweepPanel(
   );
   const cancel = button('Cancel', () => sweep.cancel(), { class: 'wide' });
   const progress = element('progress', { max: 1, 'aria-label': 'Progress of the sweep' });
-  const message = element('p', { class: 'note' });
-  const expected = element('p', { class: 'note' });
+  const message = noteLine();
+  const expected = noteLine();
   const open = button('Show the chart', showChart, { class: 'wide' });
-  parent.append(
-    element(
-      'section',
-      { 'aria-label': 'Speed and error' },
-      element(
-        'p',
-        { class: 'note' },
-        'How fast, how wrong? Runs this scene with the steppers at several levels, on this device, and compares each with a fine reference.',
-      ),
-      levelsField,
-      slow.line,
-      expected,
-      start,
-      cancel,
-      progress,
-      message,
-      open,
+  addSection(
+    parent,
+    'Speed and error',
+    noteLine(
+      'How fast, how wrong? Runs this scene with the steppers at several levels, on this device, and compares each with a fine reference.',
     ),
+    levelsField,
+    slow.line,
+    expected,
+    start,
+    cancel,
+    progress,
+    message,
+    open,
   );
   function showExpectation(state: MotionState): void {
     expected.hidden = state.sweep.phase === 'running';
     setText(expected, expectation(state, wish));
   }
-  return watch(store, ['sweep', 'phase', 'setting', 'costs'], (state) => {
+  watch(store, ['sweep', 'phase', 'setting', 'costs'], (state) => {
     slow.show(state.setting.model);
     levelsField.hidden = levelsOf(state.setting.preset).length === 1;
     showExpectation(state);

@@ -1,4 +1,4 @@
-// The figure as the view of refinement starts with it, which stands there before anything of the view could be
+// The body as the view of refinement starts with it, which stands there before anything of the view could be
 // fetched: asked of the module that was built for the page.
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
@@ -6,7 +6,7 @@ import type { Plugin } from 'vite';
 import type { GarmentRunHandle } from '../src/refinement/bindings/refinement-module.ts';
 import { START_S } from '../src/refinement/state/garment-frames.ts';
 
-const NAME = 'virtual:pleat-figure';
+const NAME = 'virtual:pleat-body';
 const BUILT = new URL('../src/wasm/pleat.mjs', import.meta.url);
 const ASSETS = new URL('../../assets/', import.meta.url);
 const FOLDER = 'scenes/garments/';
@@ -17,7 +17,7 @@ const DIGITS = 4;
 
 const textOf = (path: string) => readFileSync(new URL(path, ASSETS), 'utf8');
 
-async function figure(): Promise<unknown> {
+async function solidsAtStart(): Promise<unknown> {
   const { default: create } = await import(BUILT.href);
   const binary = new URL('pleat.wasm', BUILT);
   const { GarmentRun } = await create({ wasmBinary: readFileSync(fileURLToPath(binary)) });
@@ -36,11 +36,13 @@ async function figure(): Promise<unknown> {
 const rounded = (_: string, value: unknown) =>
   typeof value === 'number' ? Number(value.toFixed(DIGITS)) : value;
 
-export function firstFigure(): Plugin {
+export function firstBody(): Plugin {
   return {
-    name: 'pleat-figure',
+    name: 'pleat-body',
     resolveId: (id) => (id === NAME ? `\0${NAME}` : null),
     load: async (id) =>
-      id === `\0${NAME}` ? `export default ${JSON.stringify(await figure(), rounded)}` : null,
+      id === `\0${NAME}`
+        ? `export default ${JSON.stringify(await solidsAtStart(), rounded)}`
+        : null,
   };
 }
