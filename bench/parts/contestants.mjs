@@ -20,7 +20,9 @@ export async function wasmModule() {
   if (!compiled) {
     // V8 would start with unoptimised code and swap it at a moment of its own.
     v8.setFlagsFromString('--no-liftoff');
-    const files = ['pleat.wasm', 'pleat-rest.wasm'].map((name) => readFileSync(join(wasmFolder, name)));
+    const files = ['pleat.wasm', 'pleat-rest.wasm'].map((name) =>
+      readFileSync(join(wasmFolder, name)),
+    );
     compiled = await Promise.all(files.map((bytes) => WebAssembly.compile(bytes)));
   }
   const { default: create } = await import(join(wasmFolder, 'pleat.mjs'));

@@ -1,13 +1,12 @@
 // The body as the view of refinement starts with it, which stands there before anything of the view could be
 // fetched: asked of the module that was built for the page.
 import { readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
 import type { Plugin } from 'vite';
-import type { GarmentRunHandle } from '../src/refinement/bindings/refinement-module.ts';
+import type { RefinementModule } from '../src/refinement/bindings/refinement-module.ts';
 import { START_S } from '../src/refinement/state/garment-frames.ts';
+import { builtCore } from './built-core.ts';
 
 const NAME = 'virtual:pleat-body';
-const BUILT = new URL('../src/wasm/pleat.mjs', import.meta.url);
 const ASSETS = new URL('../../assets/', import.meta.url);
 const FOLDER = 'scenes/garments/';
 const SCENE = 'skirt_fast_walk.json';
@@ -18,10 +17,8 @@ const DIGITS = 4;
 const textOf = (path: string) => readFileSync(new URL(path, ASSETS), 'utf8');
 
 async function solidsAtStart(): Promise<unknown> {
-  const { default: create } = await import(BUILT.href);
-  const binary = new URL('pleat.wasm', BUILT);
-  const { GarmentRun } = await create({ wasmBinary: readFileSync(fileURLToPath(binary)) });
-  const run: GarmentRunHandle = new GarmentRun(textOf('fabrics/fabrics.json'));
+  const { GarmentRun } = await builtCore<RefinementModule>();
+  const run = new GarmentRun(textOf('fabrics/fabrics.json'));
   const scene = { ...JSON.parse(textOf(FOLDER + SCENE)), refinement: { level: 0 } };
   const named: string[] = [scene.figure.motion, scene.start];
   const files = Object.fromEntries(named.map((name) => [name, textOf(FOLDER + name)]));

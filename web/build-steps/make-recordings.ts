@@ -26,7 +26,7 @@ import {
   type Parents,
   type RecordingHead,
 } from '../src/refinement/worker/recording.ts';
-import createPleat from '../src/wasm/pleat.mjs';
+import { builtCore } from './built-core.ts';
 
 /** Of the density of air, by which a second run on the fine mesh has another chance. */
 const AIR_CHANGE = 1e-6;
@@ -45,9 +45,7 @@ const command = join(root, 'build/release/cli/pleat');
 const temporary = mkdtempSync(join(tmpdir(), 'pleat-recordings-'));
 const readText = (path: string) => readFileSync(join(root, path), 'utf8');
 const fabrics = readText('assets/fabrics/fabrics.json');
-const module = await createPleat<RefinementModule>({
-  wasmBinary: readFileSync(join(root, 'web/src/wasm/pleat.wasm')),
-});
+const module = await builtCore<RefinementModule>();
 
 /** The scene, on its own mesh or so refined, with the files that it names written out. */
 function sceneOf(name: string, refinement: object | null, durationS: number) {

@@ -1,12 +1,12 @@
 // The core's table of steppers, which the page knows as a module of its own: asked of the module that
 // was built for the page, so that what is said of a stepper stands in the core alone. What is told of
 // the details of methods is another module: it is fetched when they are first shown.
-import { readFileSync } from 'node:fs';
 import type { Plugin } from 'vite';
+import type { PleatModule } from '../src/shared/bindings/pleat-module.ts';
+import { builtCore } from './built-core.ts';
 
 const ROWS = 'virtual:pleat-steppers';
 const DETAILS = 'virtual:pleat-details';
-const BUILT = new URL('../src/wasm/pleat.mjs', import.meta.url);
 
 interface Detail {
   key: string;
@@ -15,8 +15,7 @@ interface Detail {
 }
 
 async function tables(): Promise<{ steppers: unknown; details: Detail[] }> {
-  const { default: create } = await import(BUILT.href);
-  const { Scene } = await create({ wasmBinary: readFileSync(new URL('pleat.wasm', BUILT)) });
+  const { Scene } = await builtCore<PleatModule>();
   const scene = new Scene('');
   const answer = JSON.parse(scene.steppers());
   scene.delete();

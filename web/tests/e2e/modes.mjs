@@ -223,7 +223,7 @@ export async function checkModes(harness) {
     const names = await page.evaluate(() =>
       performance.getEntriesByType('resource').map(({ name }) => name),
     );
-    const own = names.filter((name) => /\/mod(al|es)-/.test(name));
+    const own = names.filter((name) => /\/(mod(al|es)|pleat-rest)-/.test(name));
     expectThat(own.length === 0 && names.length > 2, `of ${names.length}: ${own.join()}`);
     await close();
   });

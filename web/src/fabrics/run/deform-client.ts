@@ -1,6 +1,6 @@
 // Starts the worker that finds the shapes of one cloth in several fabrics.
 import type { Asked, Listener } from '../../shared/workers/asked';
-import { startAsked } from '../../shared/workers/compiled-core';
+import { startAsked, WHOLE } from '../../shared/workers/compiled-core';
 import type { DeformAnswers, FromDeform, ToDeform } from '../worker/deform-protocol';
 
 export type DeformClient = Asked<ToDeform, DeformAnswers>;
@@ -10,5 +10,6 @@ export function startDeformWorker(listener: Listener<FromDeform>): DeformClient 
   return startAsked(
     new Worker(new URL('../worker/deform-worker.ts', import.meta.url), { type: 'module' }),
     listener,
+    WHOLE,
   );
 }

@@ -1,6 +1,6 @@
 // Starts the workers of garments: one for each pane, and one for the examples.
 import type { Asked } from '../../shared/workers/asked';
-import { startAsked } from '../../shared/workers/compiled-core';
+import { startAsked, WHOLE } from '../../shared/workers/compiled-core';
 import type {
   ExampleAnswers,
   GarmentAnswers,
@@ -14,11 +14,15 @@ export type ExampleClient = Asked<ToExample, ExampleAnswers>;
 export function startGarmentWorker(): GarmentClient {
   return startAsked(
     new Worker(new URL('../worker/garment-worker.ts', import.meta.url), { type: 'module' }),
+    {},
+    WHOLE,
   );
 }
 
 export function startExampleWorker(): ExampleClient {
   return startAsked(
     new Worker(new URL('../worker/example-worker.ts', import.meta.url), { type: 'module' }),
+    {},
+    WHOLE,
   );
 }

@@ -4,15 +4,10 @@ import type { CoreLetter } from './compiled-core';
 
 /** The core's classes, or the part of them that the caller names. */
 export async function givenCore<Part>(): Promise<Part> {
-  const core = await new Promise<WebAssembly.Module>((resolve) => {
+  const parts = await new Promise<WebAssembly.Module[]>((resolve) => {
     addEventListener('message', ({ data }: MessageEvent<CoreLetter | object>) => {
       if ('core' in data) resolve(data.core);
     });
   });
-  return createPleat<Part>({
-    instantiateWasm(imports, receive) {
-      void WebAssembly.instantiate(core, imports).then(receive);
-      return {};
-    },
-  });
+  return createPleat<Part>({ parts });
 }

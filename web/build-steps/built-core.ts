@@ -1,0 +1,13 @@
+// The core's WebAssembly as it was built, for what runs in Node.
+import { existsSync, readFileSync } from 'node:fs';
+
+const fileOf = (name: string) => new URL(`../src/wasm/${name}`, import.meta.url);
+
+/** A core with all of its classes, or the part of them that the caller names. */
+export async function builtCore<Part>(): Promise<Part> {
+  if (!existsSync(fileOf('pleat.wasm')))
+    throw new Error('The WebAssembly module is not built: ./pleat test and ./pleat demo do.');
+  const { default: create } = await import(/* @vite-ignore */ fileOf('pleat.mjs').href);
+  const files = ['pleat.wasm', 'pleat-rest.wasm'].map((name) => readFileSync(fileOf(name)));
+  return create({ parts: await Promise.all(files.map((bytes) => WebAssembly.compile(bytes))) });
+}
