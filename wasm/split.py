@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Splits the linked module into what a first visit needs and the rest.
+"""Splits the linked module into what a first visit needs and the rest, and makes both small.
 
 split.py WHOLE FIRST OUTPUT_FIRST OUTPUT_REST
 
-WHOLE   the optimised module, with names of functions
+WHOLE   the module as it was linked, with names of functions
 FIRST   a module of the same objects linked with the bindings of a first visit alone, with names
 
 A function of WHOLE whose name FIRST lacks goes to the rest, but for what initialises the module. Where WHOLE has
-several of one name, or one that the optimiser made of several, all stay.
+several of one name, all stay.
 """
 import re
 import subprocess
@@ -17,6 +17,9 @@ import tempfile
 # Those that the compiler is told to use, and its defaults.
 FEATURES = ["--enable-simd", "--enable-exception-handling", "--enable-bulk-memory", "--enable-sign-ext",
             "--enable-mutable-globals", "--enable-nontrapping-float-to-int"]
+# As Emscripten calls it for its modules.
+SMALL = ["--post-emscripten", "-Oz", "--low-memory-unused", "--zero-filled-memory", "--strip-debug",
+         "--strip-producers"]
 
 
 def calls(module):
@@ -31,7 +34,7 @@ def calls(module):
 
 def reached(graph, start):
     """Start and all that it calls, and they call."""
-    found, open_names = {start}, [start]
+    found, open_names = set(start), list(start)
     while open_names:
         for name in graph.get(open_names.pop(), ()):
             if name not in found:
@@ -43,14 +46,15 @@ def reached(graph, start):
 def main():
     whole, first, output_first, output_rest = sys.argv[1:]
     graph = calls(whole)
-    needed = set(calls(first)) | reached(graph, "__wasm_call_ctors")
-    rest = [name for name in graph
-            if not name.startswith("byn$") and re.sub(r"_\d+$", "", name) not in needed and name not in needed]
+    needed = reached(graph, [*calls(first), "__wasm_call_ctors"])
+    rest = [name for name in graph if name not in needed and re.sub(r"_\d+$", "", name) not in needed]
     with tempfile.NamedTemporaryFile(mode="w", suffix=".functions") as names:
         names.write("\n".join(rest))
         names.flush()
         subprocess.run(["wasm-split", *FEATURES, whole, f"--split-funcs=@{names.name}", "-o1", output_first,
                         "-o2", output_rest], check=True)
+    for part in (output_first, output_rest):
+        subprocess.run(["wasm-opt", *FEATURES, *SMALL, part, "-o", part], check=True)
 
 
 main()

@@ -3,11 +3,17 @@ import { existsSync, readFileSync } from 'node:fs';
 
 const fileOf = (name: string) => new URL(`../src/wasm/${name}`, import.meta.url);
 
+/** Parts of the module: what a first visit needs, and the rest. */
+const PARTS = ['pleat.wasm', 'pleat-rest.wasm'];
+
 /** A core with all of its classes, or the part of them that the caller names. */
-export async function builtCore<Part>(): Promise<Part> {
+export async function builtCore<Part>(parts = PARTS): Promise<Part> {
   if (!existsSync(fileOf('pleat.wasm')))
     throw new Error('The WebAssembly module is not built: ./pleat test and ./pleat demo do.');
   const { default: create } = await import(/* @vite-ignore */ fileOf('pleat.mjs').href);
-  const files = ['pleat.wasm', 'pleat-rest.wasm'].map((name) => readFileSync(fileOf(name)));
+  const files = parts.map((name) => readFileSync(fileOf(name)));
   return create({ parts: await Promise.all(files.map((bytes) => WebAssembly.compile(bytes))) });
 }
+
+/** The core as a first visit has it: what is in the rest throws. */
+export const firstCore = <Part>() => builtCore<Part>(PARTS.slice(0, 1));

@@ -10,7 +10,7 @@ import { BrokenWorker } from '../../src/shared/workers/asked';
 import type { MotionClient } from '../../src/shared/workers/motion-client';
 import { MotionCore } from '../../src/shared/workers/motion-core';
 import type { FromMotion } from '../../src/shared/workers/motion-protocol';
-import { loadModule } from '../support/built-module';
+import { loadFirst } from '../support/built-module';
 
 /** A worker's end without a worker: each question is answered a moment later. */
 function clientOf(module: PleatModule): MotionClient {
@@ -67,7 +67,7 @@ function createDuel(module: PleatModule, caseId: string) {
 
 describe('a duel', () => {
   it('plays to its end, tells the sign, and begins anew', { timeout: 30000 }, async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     const { duel, until, positions } = createDuel(module, 'rest_on_a_ball');
     await until(({ phase }) => phase === 'ready');
     const rest = positions(1);
@@ -87,7 +87,7 @@ describe('a duel', () => {
   });
 
   it('keeps the last good frame of a side that ended, while the other goes on', async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     const { duel, until, positions } = createDuel(module, 'hundredfold_stiffness');
     await until(({ phase }) => phase === 'ready');
     const rest = positions(0);
@@ -103,7 +103,7 @@ describe('a duel', () => {
   });
 
   it('drops what belonged to the case before', async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     const { duel, store, until, nSprings } = createDuel(module, 'needle_cells');
     await until(({ phase }) => phase === 'ready');
     duel.step();

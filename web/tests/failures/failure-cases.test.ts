@@ -10,11 +10,11 @@ import {
 } from '../../src/failures/state/failure-cases';
 import type { RunNumbers } from '../../src/shared/bindings/pleat-module';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
-import { loadModule } from '../support/built-module';
+import { loadFirst } from '../support/built-module';
 
 /** All signs of a side until its end. */
 async function signsOf(one: FailureCase, side: Side): Promise<Sign[]> {
-  const module = await loadModule();
+  const module = await loadFirst();
   const simulation = new module.Simulation(fabricsText);
   expect(JSON.parse(simulation.load(sceneTextOf(one, side)))).toMatchObject({ ok: true });
   const nSteps = Math.round(one.endS / STEP_S);

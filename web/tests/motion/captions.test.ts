@@ -4,7 +4,7 @@ import { describe, expect, it } from 'vitest';
 import { PRESETS } from '../../src/motion/state/setting';
 import type { PleatModule, SimulationHandle } from '../../src/shared/bindings/pleat-module';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
-import { loadModule } from '../support/built-module';
+import { loadFirst } from '../support/built-module';
 
 const ASSETS = new URL('../../../assets/', import.meta.url);
 const textOf = (path: string) => readFileSync(new URL(path, ASSETS), 'utf8');
@@ -106,7 +106,7 @@ function rmsApart(a: Vertex[], b: Vertex[]): number {
 // Seconds of cloth in motion.
 describe('the caption of', { timeout: 240000 }, () => {
   it('the curtain: half the width, four folds in every fabric, deeper on their way down', async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     expect(sceneOf('curtain').caption).toMatch(/half its width.*the same four.*deeper/);
     for (const name of ['silk', 'fine cotton', 'canvas', 'wool', 'leather']) {
       const { rest, at } = begin(module, { ...sceneOf('curtain'), fabric: { name } });
@@ -129,7 +129,7 @@ describe('the caption of', { timeout: 240000 }, () => {
   });
 
   it('the swags: half the width, and each fabric by itself', async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     expect(sceneOf('swags').caption).toMatch(/half its width.*5 to 8 cm apart/);
     const runs = ['silk', 'canvas', 'leather'].map((name) =>
       begin(module, { ...sceneOf('swags'), fabric: { name } }),
@@ -148,7 +148,7 @@ describe('the caption of', { timeout: 240000 }, () => {
   });
 
   it('the tablecloth: corners hang close to the ball, the hem between stands out', async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     expect(sceneOf('tablecloth').caption).toMatch(/settles.*corners hang down close/);
     for (const name of ['silk', 'linen', 'leather']) {
       // What a looser solver leaves unsolved may let stiff cloth slide off its side.
@@ -173,7 +173,7 @@ describe('the caption of', { timeout: 240000 }, () => {
   });
 
   it('the swinging sheet: methods agree to millimetres until it whips, and not after', async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     expect(sceneOf('swinging_sheet').caption).toMatch(/millimetres, after it hardly to decimetres/);
     const step_s = 1 / STEPS_PER_SECOND;
     const [a, b] = [
@@ -192,7 +192,7 @@ describe('the caption of', { timeout: 240000 }, () => {
   });
 
   it('the wool: it rests where it touches the ball, and lace gives more than plain columns', async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     expect(sceneOf('wool').caption).toMatch(/rests where it touches.*lace.*give more/);
     const { rest, at } = begin(module, sceneOf('wool'));
     const nearTop = ({ x, z }: Vertex) => Math.hypot(x, z) < 0.05;
@@ -215,7 +215,7 @@ describe('the caption of', { timeout: 240000 }, () => {
   });
 
   it('the flag: waves grow from the pole to the free end', async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     expect(sceneOf('flag').caption).toMatch(/waves run from the pole to the free end and grow/);
     const { rest, at } = begin(module, sceneOf('flag'));
     const places = [2, 2.2, 2.4, 2.6, 2.8, 3, 3.2, 3.4, 3.6].map(at);
@@ -233,7 +233,7 @@ describe('the caption of', { timeout: 240000 }, () => {
   });
 
   it('the tearing curtain: it hangs still, and a strip comes off the hand that pulls', async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     expect(sceneOf('tearing_curtain').caption).toMatch(/pull until it tears.*strip comes off/);
     const { rest, simulation } = begin(module, sceneOf('tearing_curtain'));
     simulation.step(120);
@@ -253,7 +253,7 @@ describe('the caption of', { timeout: 240000 }, () => {
   });
 
   it('the falling sheet: all parts alike, 4.9 m and the 8 cm of its steps, no stretch', async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     expect(sceneOf('falling_sheet').caption).toMatch(/4\.9 m .* 8 cm/);
     const { rest, at, simulation } = begin(module, sceneOf('falling_sheet'));
     const falls = at(1).map(({ id, y }) => (rest[id] as Vertex).y - y);
@@ -263,7 +263,7 @@ describe('the caption of', { timeout: 240000 }, () => {
   });
 
   it('corners meet: to half their distance in a second, and one fold between them', async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     const { rest, at } = begin(module, sceneOf('corners_meet'));
     for (const time of [1, 2]) {
       const edge = those(rest, at(time), ({ y }) => isNear(y, 1.5)).sort((a, b) => a.x - b.x);
@@ -275,7 +275,7 @@ describe('the caption of', { timeout: 240000 }, () => {
   });
 
   it('the hanging chain: link k of n stretches by (n - k + 1) m g / stiffness', async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     const now = begin(module, sceneOf('hanging_chain')).at(10);
     for (let k = 1; k <= 10; ++k) {
       const stretch = (now[k - 1]?.y ?? 0) - (now[k]?.y ?? 0) - 0.1;
@@ -284,7 +284,7 @@ describe('the caption of', { timeout: 240000 }, () => {
   });
 
   it('the spring pendulum: about a place 9.81 mm lower, five times a second', async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     const { at } = begin(module, sceneOf('spring_pendulum'));
     const heights = Array.from({ length: 2 * STEPS_PER_SECOND }, (_, step) => {
       return at((step + 1) / STEPS_PER_SECOND)[1]?.y ?? 0;
@@ -298,7 +298,7 @@ describe('the caption of', { timeout: 240000 }, () => {
   });
 
   it('the skirt: the hem follows late and swings past, and falls otherwise at the back', async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     const reader = new module.Scene(fabricsText);
     const mesh = JSON.stringify({ obj: 'skirt.obj' });
     const { cloth } = JSON.parse(reader.readObj(textOf('meshes/skirt.obj'), mesh));

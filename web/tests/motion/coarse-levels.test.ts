@@ -17,7 +17,7 @@ import type { SceneSummary } from '../../src/shared/bindings/pleat-module';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { createStore } from '../../src/shared/state/store';
 import type { LevelsMessage } from '../../src/shared/workers/motion-protocol';
-import { loadModule } from '../support/built-module';
+import { loadFirst } from '../support/built-module';
 import { nativeLevels } from '../support/native-command';
 
 const curtain = presetSetting('curtain');
@@ -46,7 +46,7 @@ describe('coarser levels', () => {
   });
 
   it('of a sheet, drawn curtains and a knit are the same natively', async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     for (const preset of ['curtain', 'wool'] as const) {
       const scene = sceneOf(presetSetting(preset));
       const simulation = new module.Simulation(fabricsText);
@@ -164,7 +164,7 @@ describe('details of a method', () => {
   });
 
   it('of every stepper and value can be loaded', async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     const scene = new module.Scene(fabricsText);
     try {
       const load = (setting: typeof curtain) =>

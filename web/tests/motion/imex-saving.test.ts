@@ -10,7 +10,7 @@ import { race } from '../../src/motion/worker/race-core';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { createStore } from '../../src/shared/state/store';
 import { BrokenWorker } from '../../src/shared/workers/asked';
-import { loadModule } from '../support/built-module';
+import { loadFirst } from '../support/built-module';
 import { createFakeModule } from '../support/fake-module';
 
 const pendulum = presetSetting('pendulum');
@@ -278,7 +278,7 @@ describe('race of imex and implicit', () => {
   });
 
   it('runs both with the WebAssembly module', async () => {
-    const module = await loadModule();
+    const module = await loadFirst();
     let ms = 0;
     const now = () => {
       ms += 10;

@@ -16,7 +16,7 @@ import { createAsked } from '../../src/shared/workers/asked';
 import type { StartMotion } from '../../src/shared/workers/motion-client';
 import { MotionCore } from '../../src/shared/workers/motion-core';
 import type { FromMotion, ToMotion } from '../../src/shared/workers/motion-protocol';
-import { loadModule } from '../support/built-module';
+import { loadFirst } from '../support/built-module';
 import diverging from '../support/diverging.json';
 import { createFakeModule, FRAGILE_STEPS } from '../support/fake-module';
 import { stubLocks } from '../support/locks';
@@ -111,7 +111,7 @@ describe('motion run of a run that diverges', () => {
   });
 
   it('does so with the WebAssembly module', async () => {
-    module = await loadModule();
+    module = await loadFirst();
     changeScene = (scene) => ({ ...scene, ...diverging });
     const page = open('#scene=swinging-sheet&level=0&stepper=explicit');
     await vi.waitUntil(() => phaseOf(page) === 'ready');

@@ -11,7 +11,7 @@ import type { RunNumbers } from '../../src/shared/bindings/pleat-module';
 import type { RunWarning } from '../../src/shared/bindings/run-warning';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { warningSentence } from '../../src/shared/panels/warning-words';
-import { loadModule } from '../support/built-module';
+import { loadFirst } from '../support/built-module';
 
 const warning = (hints: Record<string, number>): RunWarning => ({
   kind: 'stretch',
@@ -28,7 +28,7 @@ const exploding: Setting = { ...presetSetting('curtain'), stepper: 'xpbd', subst
 
 /** The numbers after a second of a setting. */
 async function numbersOf(setting: Setting): Promise<RunNumbers> {
-  const { Simulation } = await loadModule();
+  const { Simulation } = await loadFirst();
   const simulation = new Simulation(fabricsText);
   try {
     expect(JSON.parse(simulation.load(JSON.stringify(sceneOf(setting, null))))).toMatchObject({

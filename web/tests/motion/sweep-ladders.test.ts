@@ -9,7 +9,7 @@ import {
   sweepPlan,
 } from '../../src/motion/state/sweep-plan';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
-import { loadModule } from '../support/built-module';
+import { loadFirst } from '../support/built-module';
 
 const FOLDER = new URL('../../../assets/references/sweep/', import.meta.url);
 
@@ -19,7 +19,7 @@ const shippedFor = (preset: string) =>
   );
 
 async function wantedIds(plan: object): Promise<string[]> {
-  const { Experiment } = await loadModule();
+  const { Experiment } = await loadFirst();
   const experiment = new Experiment(fabricsText);
   try {
     return JSON.parse(experiment.start(JSON.stringify(plan))).references;

@@ -6,7 +6,7 @@ import { MODELS, presetSetting } from '../../src/motion/state/setting';
 import { ENERGY_NUMBERS, type PleatModule } from '../../src/shared/bindings/pleat-module';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { canRun, type Model, STEPPER_NAMES } from '../../src/shared/steppers/steppers';
-import { loadModule } from '../support/built-module';
+import { loadFirst } from '../support/built-module';
 import { nativeConvergence, nativeEnergy, nativePositions } from '../support/native-command';
 
 /** Steps of a run: rk4, in its hundreds of stable substeps, takes seconds for twenty. */
@@ -76,7 +76,7 @@ const methods: Record<string, { stepper: string; [detail: string]: unknown }> = 
 
 let module: PleatModule;
 beforeAll(async () => {
-  module = await loadModule();
+  module = await loadFirst();
 });
 
 function wasmPositions(scene: object, steps: number): Float64Array {
@@ -205,7 +205,7 @@ describe('WebAssembly against native', () => {
       const names = methods.map(({ method }) => method.stepper).join();
       const words = ['--methods', names, '--constraints', constraints];
       const native = nativeConvergence(scene, [...words, '--at', '0.25', '--rounds', '65']);
-      const { studyConvergence } = await loadModule();
+      const { studyConvergence } = await loadFirst();
       const told: number[] = [];
       const answer = JSON.parse(
         studyConvergence(fabricsText, JSON.stringify(scene), JSON.stringify(wish), (done) =>

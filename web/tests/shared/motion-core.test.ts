@@ -24,7 +24,7 @@ import { canRun, STEPPER_NAMES, STEPPERS } from '../../src/shared/steppers/stepp
 import { MotionCore } from '../../src/shared/workers/motion-core';
 import type { FromMotion, ToMotion } from '../../src/shared/workers/motion-protocol';
 import { boundMethods } from '../support/bound-methods';
-import { loadModule } from '../support/built-module';
+import { loadFirst, loadModule } from '../support/built-module';
 import { createFakeModule } from '../support/fake-module';
 import { TYPED_METHODS } from '../support/typed-methods';
 
@@ -89,7 +89,7 @@ function objText(isFlat: boolean, isTextured = false): string {
 
 const modules: [string, () => Promise<AllModules>][] = [
   ['the stand-in', async () => createFakeModule().module],
-  ['the WebAssembly module', loadModule],
+  ['the WebAssembly module', loadFirst],
 ];
 
 describe.each(modules)('motion-core with %s', (_name, load) => {
@@ -566,7 +566,7 @@ describe('the WebAssembly module with a shipped reference', () => {
   const textOf = (patch: Partial<Setting>) => JSON.stringify(sceneOf({ ...swinging, ...patch }));
 
   async function openReferred() {
-    const server = serve(await loadModule());
+    const server = serve(await loadFirst());
     const { send, take } = server;
     send({ type: 'open', fabricsText });
     take('ready');
@@ -644,7 +644,7 @@ describe('the WebAssembly module with a shipped reference', () => {
 
 describe('the cost of a step', () => {
   async function projectiveRun() {
-    const module = await loadModule();
+    const module = await loadFirst();
     const simulation = new module.Simulation(fabricsText);
     const method = withStepper({ ...setting, level: 3 }, 'projective');
     simulation.load(JSON.stringify(sceneOf({ ...method, iterations: 1 })));
