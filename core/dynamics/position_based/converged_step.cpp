@@ -20,7 +20,7 @@ struct StepSpring {
   double compliance;  // compliance/h^2, relative to the inverse masses
 };
 
-/// The pull of a spring per multiplier, and how it changes with d.
+/// The pull of a spring per multiplier, and how it changes with d, its vector at the end.
 struct Pull {
   double length;
   Vec3 along;      // d(length)/dd
@@ -32,9 +32,9 @@ Pull pull_of(const Vec3& d, const Vec3& d_begin) {
   const Vec3 g = d + d_begin;
   const double square = d.squaredNorm();
   const double length = std::sqrt(square);
-  const bool is_held = d.dot(g) < square;
-  const double slope = is_held ? square : d.dot(g);
-  const Vec3 slope_change = is_held ? Vec3(2 * d) : Vec3(g + d);
+  const bool is_clamped = d.dot(g) < square;
+  const double slope = is_clamped ? square : d.dot(g);
+  const Vec3 slope_change = is_clamped ? Vec3(2 * d) : Vec3(g + d);
   const Vec3 along = d / length;
   const Vec3 direction = (length / slope) * g;
   const Mat3 change = (g * along.transpose() + length * Mat3::Identity()) / slope -
@@ -102,6 +102,7 @@ class StepEquations {
     iteration_.setTolerance(kLinearResidual);
     change_.resize(right_side_.size());
     change_.head(unknowns_) = iteration_.compute(matrix).solve(reduced_right_side_);
+    if (iteration_.info() == Eigen::NumericalIssue) return false;
     for (std::size_t s = 0; s < springs_.size(); ++s) {
       const Eigen::Index row = unknowns_ + static_cast<Eigen::Index>(s);
       const StepSpring& spring = springs_[s];
@@ -229,15 +230,16 @@ ConvergedStep converged_step(const ClothModel& model, const PredictedStep& step)
   ConvergedStep result;
   while (!result.is_converged && result.iterations < kMostIterations && equations.find_change()) {
     ++result.iterations;
+    result.last_change = equations.largest_change();
+    result.is_converged = result.last_change < kRounding * extent;
     const double before = equations.error();
     double share = 1;
     equations.go(1);
-    for (int i = 0; i < kMostHalvings && !(equations.error() < before); ++i) {
+    for (int i = 0; i < kMostHalvings && !result.is_converged && !(equations.error() < before);
+         ++i) {
       equations.go(-share / 2);
       share /= 2;
     }
-    result.last_change = share * equations.largest_change();
-    result.is_converged = equations.largest_change() < kRounding * extent;
   }
   result.positions = equations.positions();
   result.relative_error = first > 0 ? equations.error() / first : 0;
