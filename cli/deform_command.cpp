@@ -73,6 +73,7 @@ Json json_deformation(const DeformScene& scene, const Deformation& result,
       {"begin", {{"energy", result.start.weighted(weights)}, {"terms", json_three(result.start)}}},
       {"steps", json_steps(result.solver.steps())},
       {"farthest_m", result.farthest(scene)}};
+  if (result.report.ok()) json["minimum"] = "local";
   if (!caution(weights).empty()) json["caution"] = caution(weights);
   if (scene.fit) json["fit"] = json_fit(*scene.fit, fabrics);
   json["core"] = core_version();
@@ -113,6 +114,8 @@ void print_deformation(const DeformScene& scene, const Deformation& result,
   std::printf("status %s, %zu steps, %d linearisations, farthest from rest %.4g m\n",
               name(result.report.status), result.solver.steps().size(), result.report.iterations,
               result.farthest(scene));
+  if (result.report.ok())
+    std::printf("nothing around this shape has less energy; from another start, one might\n");
   if (!result.report.message.empty()) std::printf("%s\n", result.report.message.c_str());
 }
 

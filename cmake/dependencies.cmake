@@ -30,7 +30,7 @@ if(EMSCRIPTEN)
                                                            ${S}/COLAMD/Include ${S}/CHOLMOD/Include)
     target_compile_definitions(pleat_cholmod PUBLIC NPARTITION NCAMD NSUPERNODAL NMODIFY NMATRIXOPS NTIMER
                                              PRIVATE NPRINT)
-    # A solve is as fast as with -O3 or -Os, and a page's modules 16 kB smaller.
+    # A solve is as fast as with -O3 or -Os, and the WebAssembly 16 kB smaller.
     target_compile_options(pleat_cholmod PRIVATE -w -Oz -msimd128)
     set_target_properties(pleat_cholmod PROPERTIES UNITY_BUILD OFF)
   endif()

@@ -68,8 +68,8 @@ void PageRun::put_warnings(val& envelope) const {
 void PageRun::put_costs(val& envelope) const {
   running();
   val parts = val::object();
-  for (int s = 0; s < kPartCount; ++s) {
-    const auto part = static_cast<Part>(s);
+  for (int i = 0; i < kPartCount; ++i) {
+    const auto part = static_cast<Part>(i);
     const double seconds = steps_->parts().total(part);
     if (seconds > 0) parts.set(std::string(name(part)), 1e3 * seconds);
   }

@@ -358,7 +358,7 @@ EMSCRIPTEN_BINDINGS(refinement) {
       .function("status", &GarmentRun::status)
       .function("costs", &GarmentRun::costs)
       .function("warnings", &GarmentRun::warnings)
-      .function("look", &GarmentRun::add_shown_frame)
+      .function("addShownFrame", &GarmentRun::add_shown_frame)
       .function("compare", &GarmentRun::compare)
       .function("compareSurface", &GarmentRun::compare_surface)
       .function("addFolds", &GarmentRun::add_folds)

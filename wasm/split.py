@@ -24,7 +24,7 @@ SMALL = ["--post-emscripten", "-Oz", "--low-memory-unused", "--zero-filled-memor
 
 def calls(module):
     """Names of the module's own functions, each with those that it calls by name, in Binaryen's writing."""
-    graph = subprocess.run(["wasm-opt", *FEATURES, "--print-call-graph", module], check=True, capture_output=True,
+    graph = subprocess.run(["wasm-opt", *FEATURES, "--print-call-graph", module], check=True, stdout=subprocess.PIPE,
                            text=True).stdout
     found = {name: set() for name in re.findall(r'^  "([^"]+)" \[.*fillcolor="white"', graph, re.MULTILINE)}
     for caller, called in re.findall(r'^  "([^"]+)" -> "([^"]+)"', graph, re.MULTILINE):

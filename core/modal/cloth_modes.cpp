@@ -40,9 +40,9 @@ SolveReport cloth_modes(const ClothModel& model, const Positions& positions,
   int n_free = 0;
   for (std::size_t i = 0; i < index_of.size(); ++i)
     if (!is_held[i / 3]) index_of[i] = n_free++;
-  if (count < 1 || count >= n_free)
-    throw InputError("", "expected 1 to " + std::to_string(std::max(n_free - 1, 0)) +
-                             " modes, fewer than there are free coordinates; found " +
+  if (count < 1 || count > n_free)
+    throw InputError("", "expected 1 to " + std::to_string(n_free) +
+                             " modes, at most one a free coordinate; found " +
                              std::to_string(count));
   const SparseMatrix stiffness =
       kept_block(stiffness_matrix(model, positions, ElementHessian::exact), index_of, n_free);

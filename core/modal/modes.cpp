@@ -92,6 +92,12 @@ struct Pairs {
 
   Eigen::Index size() const { return values.size(); }
 
+  void append(double value, const Eigen::VectorXd& vector) {
+    values.conservativeResize(size() + 1);
+    values[size() - 1] = value;
+    vectors = joined(vectors, vector);
+  }
+
   /// Keeps the softest of both, as many as before. False when none of `others` is softer than the
   /// stiffest here.
   bool take_softer(const Pairs& others) {
@@ -113,6 +119,15 @@ struct Pairs {
   }
 };
 
+/// Unit vector perpendicular to orthonormal columns, one fewer than their rows.
+Eigen::VectorXd last_direction(const Eigen::MatrixXd& columns) {
+  Eigen::Index least = 0;
+  columns.rowwise().squaredNorm().minCoeff(&least);
+  Eigen::VectorXd direction = Eigen::VectorXd::Unit(columns.rows(), least);
+  for (int pass = 0; pass < 2; ++pass) direction -= columns * (columns.transpose() * direction);
+  return direction.normalized();
+}
+
 /// Finds modes by shift and invert.
 struct Softest {
   LinearSolver& solver;
@@ -129,15 +144,8 @@ struct Softest {
     Spectra::SymEigsShiftSolver<ShiftInverse> eigen(inverse, count, space, shift);
     eigen.init();
     eigen.compute(Spectra::SortRule::LargestMagn, kMostRestarts, kTolerance,
-                  Spectra::SortRule::LargestMagn);
-    Pairs pairs{eigen.eigenvalues(), eigen.eigenvectors(), eigen.num_operations(),
-                inverse.report()};
-    const Eigen::Index last = pairs.size() - 1;
-    if (last > 0 && pairs.values[0] > pairs.values[last]) {
-      pairs.values.reverseInPlace();
-      pairs.vectors = pairs.vectors.rowwise().reverse().eval();
-    }
-    return pairs;
+                  Spectra::SortRule::SmallestAlge);
+    return {eigen.eigenvalues(), eigen.eigenvectors(), eigen.num_operations(), inverse.report()};
   }
 };
 
@@ -208,9 +216,11 @@ SolveReport lowest_modes(const SparseMatrix& stiffness, const Eigen::VectorXd& m
   }
 
   const Eigen::MatrixXd rigid = orthonormal_in_order(root_masses.asDiagonal() * null_space);
-  const Eigen::Index wanted = std::min<Eigen::Index>(count, n - 1);
+  const Eigen::Index wanted = std::min<Eigen::Index>(count, n - 1);  // no iteration finds all n
   const Softest softest{*solver, root_masses, -shift};
-  Pairs pairs = softest(rigid, wanted);
+  Pairs pairs;
+  pairs.vectors.resize(n, 0);
+  if (wanted > 0) pairs = softest(rigid, wanted);
   if (pairs.report.ends_run()) return pairs.report;
   const bool all_converged = pairs.size() == wanted;
   // The Krylov space of one vector has, but for rounding, one of each modes of equal stiffness. The
@@ -220,6 +230,12 @@ SolveReport lowest_modes(const SparseMatrix& stiffness, const Eigen::VectorXd& m
     if (missed.report.ends_run()) return missed.report;
     pairs.n_operations += missed.n_operations;
     if (!pairs.take_softer(missed)) break;
+  }
+
+  if (all_converged && count > wanted) {
+    const Eigen::VectorXd last = last_direction(joined(rigid, pairs.vectors));
+    const Eigen::VectorXd shape = last.cwiseQuotient(root_masses);
+    pairs.append(shape.dot(stiffness.selfadjointView<Eigen::Lower>() * shape), last);
   }
 
   modes.n_rigid = static_cast<int>(n_null);

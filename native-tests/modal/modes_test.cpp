@@ -101,6 +101,30 @@ TEST_CASE("modes: they are those of a dense solver, orthonormal, rigid ones firs
     CHECK(modes.stiffness[m] == Approx(dense.eigenvalues()[m]).epsilon(1e-9));
 }
 
+// Second differences less a constant: stiffness below and above zero.
+TEST_CASE("modes: they ascend through zero, and all of them can be had", "[modal]") {
+  const int n = GENERATE(1, 2, 3, 12, 40);
+  const int count = GENERATE_COPY(values({1, (n + 1) / 2, n}));
+  CAPTURE(n, count);
+  Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(n, n);
+  for (int i = 0; i < n; ++i) {
+    chain(i, i) = 2 - 1.3;
+    if (i > 0) chain(i, i - 1) = chain(i - 1, i) = -1;
+  }
+  const Eigen::VectorXd masses = Eigen::VectorXd::LinSpaced(n, 1, 2);
+  Modes modes;
+  CHECK(lowest_modes(SparseMatrix(chain.sparseView()).triangularView<Eigen::Lower>(), masses,
+                     Eigen::MatrixXd(n, 0), count, modes)
+            .ok());
+  REQUIRE(modes.size() == count);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(
+      chain, Eigen::MatrixXd(masses.asDiagonal()));
+  for (int m = 0; m < count; ++m)
+    CHECK(modes.stiffness[m] == Approx(dense.eigenvalues()[m]).epsilon(1e-9));
+  const Eigen::MatrixXd products = modes.shapes.transpose() * masses.asDiagonal() * modes.shapes;
+  CHECK((products - Eigen::MatrixXd::Identity(count, count)).cwiseAbs().maxCoeff() < 1e-9);
+}
+
 TEST_CASE("modes: both modes of a square's equal two are found, however few are asked for",
           "[modal]") {
   const TriangleMesh square = patterned_sheet({.columns = 6, .rows = 6}, SheetPattern::alternating);

@@ -96,7 +96,7 @@ export interface GarmentRunHandle {
   /** A WarningsAnswer. */
   warnings(): string;
   /** The monitor sees the shown frame. */
-  look(): string;
+  addShownFrame(): string;
   /** A ComparedAnswer; fills `distances`. */
   compare(finePlaces: Float32Array): string;
   /** `rms_m` between both surfaces, whatever slid along them. */

@@ -100,7 +100,7 @@ export class GarmentCore extends ModuleCore<RefinementModule, ToGarment, FromGar
       granted(owner.put(places, firstS + frame * everyS));
     }
     const isWatched = this.summary?.has_monitor === true && how !== 'still';
-    const fit = isWatched ? payloadOf<FitAnswer>(owner.look()) : null;
+    const fit = isWatched ? payloadOf<FitAnswer>(owner.addShownFrame()) : null;
     this.post({ type: 'advanced', fit, ended: reason }, []);
   }
 
