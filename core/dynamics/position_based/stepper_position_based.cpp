@@ -23,7 +23,7 @@ StepperPositionBased::StepperPositionBased(ClothModel& model, const MethodOption
                                            MakeProjections make_projections)
     : Stepper(model, options, options.substeps),
       layout_(lane_layout(model)),
-      projections_(make_projections(model, options, layout_, spring_law(model, options.constraints),
+      projections_(make_projections(model, options, layout_, spring_law(options.constraints),
                                     step_of(options))),
       mean_mass_(model.masses.mean()),
       pitch_(layout_.pitch()),
@@ -31,6 +31,11 @@ StepperPositionBased::StepperPositionBased(ClothModel& model, const MethodOption
   const double h = step_of(options);
   for (int k = 0; k < 3; ++k)
     fall_[static_cast<std::size_t>(k)] = static_cast<float>(model.gravity[k] * h * h);
+  // A rigid spring has no damper: it lets nothing move along it.
+  if (!is_rigid(spring_law(options.constraints))) {
+    dampers_.emplace(model, layout_, h);
+    if (dampers_->empty()) dampers_.reset();
+  }
   if (model.air) {
     forces_.resize(3, model.n_vertices());
     air_.resize(kAirArrays * pitch_);
@@ -262,6 +267,12 @@ void StepperPositionBased::copy_to(State& state, double h) {
   place_between_parents(model_.hanging, state);
 }
 
+// After contact, which reads from what is rounded off where a vertex was.
+void StepperPositionBased::brake() {
+  const PartScope scope(observer_, Part::solve);
+  dampers_->brake(view(), lanes(rounded_off));
+}
+
 SolveReport StepperPositionBased::substep(State& state, double time_end, double h) {
   if (model_.air) {
     const int every = std::max(1, static_cast<int>(std::lround(kDragPeriod / h)));
@@ -287,6 +298,7 @@ SolveReport StepperPositionBased::substep(State& state, double time_end, double 
   } else if (model_.contact) {
     resolve_contacts(h);
   }
+  if (dampers_) brake();
   --substeps_left_;
   time_end_ = time_end;
   SolveReport report;

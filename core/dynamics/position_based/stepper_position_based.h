@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/dynamics/position_based/lanes/contact_program.h"
+#include "core/dynamics/position_based/lanes/damper_program.h"
 #include "core/dynamics/position_based/lanes/lane_projections.h"
 #include "core/dynamics/position_based/spring_law.h"
 #include "core/dynamics/stepper.h"
@@ -15,7 +16,7 @@
 namespace pleat {
 
 /// Steps of position-based dynamics: per substep the vertices move freely, then constraints are
-/// projected, and what the projections moved changes the velocities. Inside,
+/// projected, what the projections moved changes the velocities, and dampers brake these. Inside,
 /// single precision about a local origin, four constraints at a time; positions carry what single
 /// precision rounds off, and velocities are summed from corrections, so that slow motion is not
 /// lost and gravity is not rounded however small the substep. Hanging vertices have no motion of
@@ -81,10 +82,12 @@ class StepperPositionBased final : public Stepper {
   void find_air_drag(State& state, double h);
   void add_air_drag();
   void resolve_contacts(double h);
+  void brake();
   void limit_in_double(State& state, double time_end, double h);
 
   LaneLayout layout_;
   std::unique_ptr<Projections> projections_;
+  std::optional<DamperProgram> dampers_;   // compliant springs with dampers only
   std::optional<ContactProgram> contact_;  // models with solids only
   std::vector<VertexId> vertices_;         // one for each slot, with solids
   double mean_mass_;                       // [kg]
