@@ -340,7 +340,7 @@ extern const Command kRunCommand(
                          into this folder, which holds none yet
   --state FILE           write where the cloth is and how fast at the end, for a scene's "start"
   --check                exit status 1 when there is a warning: the run shows nonsense, or a step
-                         did not converge
+                         did not converge and left more than a thousandth of its equations
   --overwrite            remove or replace those of an earlier run
   --drift                account for the energy: what no force explains is the method's own
 )");

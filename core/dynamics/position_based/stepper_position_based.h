@@ -29,7 +29,7 @@ class StepperPositionBased final : public Stepper {
                        MakeProjections make_projections = lane_projections);
 
   void refresh() override;
-  void refresh_rest_lengths() override { projections_->refresh_rest_lengths(model_); }
+  void refresh_rest_lengths() override;
   std::string remark() const override { return projections_->remark(); }
 
  protected:
@@ -98,6 +98,8 @@ class StepperPositionBased final : public Stepper {
   std::array<float, 3> fall_{};            // gravity h^2 [m]
   int substeps_left_ = 0;
   double residual_begin_ = 0, residual_end_ = 0;  // the last substep's [m]
+  std::size_t n_constraints_;                     // constraints of the finest mesh
+  double residual_floor_ = 0;                     // see store() [m]
   Positions pin_velocities_;                      // one column per pin [m/s]
   double time_end_ = 0;                           // end of the last substep [s]
   Positions forces_;                              // the air's [N]
