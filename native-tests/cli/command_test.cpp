@@ -468,19 +468,23 @@ TEST_CASE("command: --fabric replaces a scene's own numbers and keeps its bendin
   CHECK(stiffness("\"name\": \"wool\"", {"--fabric", "silk"}) != stiffness(silk, {}));
 }
 
-TEST_CASE("command: --stepper takes any scene, with defaults for what it cannot take", "[cli]") {
+TEST_CASE("command: --stepper brings that stepper's own settings with it", "[cli]") {
   const std::string method = "\"step_s\": 0.02, \"solver\": \"eigen\"";
   const SmallScene cg(scene_with(method, "\"solver\": \"cg\", \"substeps\": 3"));
   const SmallScene stable(
       scene_with(method, "\"stepper\": \"explicit\", \"substeps\": \"stable\""));
-  const auto substeps = [](const SmallScene& scene, const std::string& stepper) {
-    const Ending ending = scene.run({"run", "--json", "--steps", "1", "--stepper", stepper});
+  const auto substeps = [](const SmallScene& scene, const std::string& stepper,
+                           const std::vector<std::string>& others = {}) {
+    std::vector<std::string> words = {"run", "--json", "--steps", "1", "--stepper", stepper};
+    words.insert(words.end(), others.begin(), others.end());
+    const Ending ending = scene.run(words);
     CAPTURE(stepper, ending.error);
     REQUIRE(ending.status == 0);
     return parse_json(ending.out).at("n_substeps").get<int>();
   };
-  CHECK(substeps(cg, "projective") == 3);
-  CHECK(substeps(cg, "xpbd") == 3);
+  CHECK(substeps(cg, "projective") == 1);
+  CHECK(substeps(cg, "xpbd") == 30);
+  CHECK(substeps(cg, "xpbd", {"--substeps", "4"}) == 4);
   CHECK(substeps(cg, "explicit") > 3);
   CHECK(substeps(cg, "implicit") == 3);
   CHECK(substeps(stable, "implicit") == 1);
