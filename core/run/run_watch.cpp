@@ -28,6 +28,9 @@ constexpr double kLeastSpeed = 1;  // [m/s]
 /// unless so many looks in a row find the same: then the run falls behind its equations.
 constexpr double kUnsolved = 0.5;
 constexpr int kUnsolvedLooks = 5;
+/// The default tolerance takes less for solved: it is no warning, though a stricter one was asked
+/// for.
+constexpr double kNotConverged = 1e-3;
 
 /// Force per strain of a gauge's edge [N].
 double edge_stiffness(const Scene& scene, const GaugeEdge& edge) {
@@ -291,8 +294,8 @@ void RunWatch::check_report(const Simulation& simulation, const SolveReport& ste
   };
   if (n_unsolved_ >= kUnsolvedLooks)
     told(RunWarning::Kind::unsolved, unsolved_since_, kUnsolved);
-  else if (step.status == SolveStatus::not_converged)
-    told(RunWarning::Kind::not_converged, simulation.time(), 0);
+  else if (step.status == SolveStatus::not_converged && step.relative_residual > kNotConverged)
+    told(RunWarning::Kind::not_converged, simulation.time(), kNotConverged);
 }
 
 /// Keeps the first time and the worst value.

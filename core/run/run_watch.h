@@ -21,7 +21,7 @@ struct RunWarning {
     stretch,        ///< cloth is longer than its load explains
     speed,          ///< a vertex is faster than falling and pulling explain
     unsolved,       ///< step after step left most of its equations unsolved
-    not_converged,  ///< a step reported it, by however little: the one that is not nonsense
+    not_converged,  ///< a step reported it and left more than a thousandth: no nonsense by itself
   };
   Kind kind;
   double time;      ///< when it was first seen [s]

@@ -283,8 +283,9 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
   return report;
 }
 
-/// |b(x) - A x| over its value where neither springs nor solids act, for the last substep. Cloth
-/// that only falls is predicted to rounding: what rounding makes of A x is nothing to be solved.
+/// |b(x) - A x| over its value where neither springs nor solids act, for the last substep, or over
+/// the weight. Cloth that only falls is predicted to rounding: what rounding makes of A x is
+/// nothing to be solved.
 void StepperProjective::store(State&, SolveReport& report) {
   if (!report.ok()) return;
   set_right_side(time_end_, options().step / substeps());
@@ -308,7 +309,9 @@ void StepperProjective::store(State&, SolveReport& report) {
     clear_hanging();
     last += column_.squaredNorm();
   }
-  report.relative_residual = first > 0 ? std::sqrt(last / std::max(first, rounding)) : 0;
+  const double weight = model_.gravity.squaredNorm() * model_.masses.squaredNorm();
+  const double scale = std::max({first, rounding, weight});
+  report.relative_residual = scale > 0 ? std::sqrt(last / scale) : 0;
 }
 
 }  // namespace pleat

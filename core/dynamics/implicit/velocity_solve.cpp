@@ -54,6 +54,7 @@ SolveReport VelocitySolve::advance(SystemMatrix& matrix, Positions& rhs, State& 
         state.velocities.col(pin.vertex);
   }
   matrix.prescribe(pin_changes_, flat(rhs));
+  const double asked = rhs.norm();
   SolveReport report;
   {
     const PartScope scope(observer, Part::factor);
@@ -67,6 +68,8 @@ SolveReport VelocitySolve::advance(SystemMatrix& matrix, Positions& rhs, State& 
     report = solver_->solve(flat(rhs), flat(change_));
     learn();
   }
+  const double weight = h * model_.gravity.norm() * model_.masses.norm();
+  if (asked < weight) report.relative_residual *= asked / weight;
   if (report.ends_run()) return report;
   state.velocities += change_;
   state.positions += h * state.velocities;

@@ -24,8 +24,9 @@ class VelocitySolve {
   void choose_pins(SystemMatrix& matrix);
 
   /// The state moves by h [s] to `time_end` unless the report ends the run. An iterative solver
-  /// starts from what the last changes lead to. Matrix, reduced to parents, and right-hand side [N
-  /// s] are changed. The observer may be null.
+  /// starts from what the last changes lead to. The residual is relative to the right-hand side or
+  /// to what weight does in the substep, whichever is larger. Matrix, reduced to parents, and
+  /// right-hand side [N s] are changed. The observer may be null.
   SolveReport advance(SystemMatrix& matrix, Positions& rhs, State& state, double time_end, double h,
                       PartObserver* observer);
 
