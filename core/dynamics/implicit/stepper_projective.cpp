@@ -41,7 +41,10 @@ StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& opt
     proposed_.resize(3, model.n_vertices());
   }
   if (model_.contact) hold_.emplace(model_, kHeldShare);
-  if (model.air && model.air->has_wind()) air_forces_ = Positions::Zero(3, model.n_vertices());
+  if (model.air) {
+    air_forces_.resize(3, model.n_vertices());
+    other_forces_ = model.gravity * model.masses.transpose();
+  }
   refresh();
 }
 
@@ -240,17 +243,28 @@ void StepperProjective::place_first_guess(double time_end, double h) {
   }
 }
 
+void StepperProjective::add_air_forces(const State& begin, double h) {
+  model_.air->set_damped_forces(begin.positions, begin.velocities, model_.masses, model_.hanging, h,
+                                other_forces_, air_forces_);
+  forces_ += air_forces_;
+}
+
+void StepperProjective::remember_motion(const State& end, double h) {
+  if (!model_.air) return;
+  other_forces_ = (end.velocities - velocities_begin_) * model_.masses.asDiagonal() / h;
+  other_forces_ -= air_forces_;
+}
+
 SolveReport StepperProjective::substep(State& state, double time_end, double h) {
   if (!factor_report_.ok()) return factor_report_;
   positions_begin_ = state.positions;
+  velocities_begin_ = state.velocities;
   if (hold_) hold(state, h);
   if (!factor_report_.ok()) return factor_report_;
   {
     const PartScope scope(observer_, Part::forces);
     set_steady_forces(forces_);
-    if (model_.air)
-      model_.air->add_damped_forces(state.positions, state.velocities, model_.masses,
-                                    model_.hanging, h, air_forces_, forces_);
+    if (model_.air) add_air_forces(state, h);
     for (int i = 0; i < model_.n_vertices(); ++i) {
       if (model_.hangs(VertexId(i))) continue;
       predicted_.col(i) = state.positions.col(i) + h * state.velocities.col(i) +
@@ -280,6 +294,7 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
   state.velocities = (positions_ - positions_begin_) / h;
   if (hold_) hold_->add_forces(state.velocities, h, contact_memory_.forces());
   correct(state, time_end, h, hold_ ? hold_->resistances() : model_.masses);
+  remember_motion(state, h);
   return report;
 }
 
