@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/dynamics/implicit/best_translation.h"
+
 namespace pleat {
 namespace {
 
@@ -11,8 +13,9 @@ constexpr double kMuchLess = 0.5;
 
 }  // namespace
 
-VelocitySolve::VelocitySolve(const ClothModel& model, std::unique_ptr<LinearSolver> solver)
-    : model_(model), solver_(std::move(solver)) {
+VelocitySolve::VelocitySolve(const ClothModel& model, SolverKind kind,
+                             std::unique_ptr<LinearSolver> solver)
+    : model_(model), kind_(kind), solver_(std::move(solver)) {
   const Positions none = Positions::Zero(3, model.n_vertices());
   change_ = none;
   difference_ = none;
@@ -24,6 +27,15 @@ void VelocitySolve::choose_pins(SystemMatrix& matrix) {
   for (const Pin& pin : model_.pins) vertices.push_back(pin.vertex);
   matrix.choose_prescribed(vertices);
   pin_changes_.resize(3, static_cast<Eigen::Index>(vertices.size()));
+  is_free_.assign(static_cast<std::size_t>(model_.n_vertices()), char{1});
+  for (const VertexId vertex : vertices) is_free_[vertex] = 0;
+  for (const HangingVertex& hanging : model_.hanging) is_free_[hanging.vertex] = 0;
+}
+
+void VelocitySolve::keep_momentum(const SystemMatrix& matrix, const Positions& rhs) {
+  const Vec3 translation = best_translation(matrix.lower(), rhs, change_, is_free_);
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    if (is_free_[i] != 0) change_.col(i) += translation;
 }
 
 void VelocitySolve::guess() {
@@ -65,6 +77,7 @@ SolveReport VelocitySolve::advance(SystemMatrix& matrix, Positions& rhs, State& 
     const PartScope scope(observer, Part::solve);
     guess();
     report = solver_->solve(flat(rhs), flat(change_));
+    if (!is_direct(kind_)) keep_momentum(matrix, rhs);
     learn();
   }
   if (report.ends_run()) return report;
