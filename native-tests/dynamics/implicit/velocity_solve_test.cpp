@@ -89,6 +89,51 @@ TEST_CASE("velocity solve: what cg leaves has no sum over free vertices, beside 
   CHECK(left.rowwise().sum().norm() < 1e-10 * left.norm());
 }
 
+TEST_CASE("velocity solve: where cg gives up a factor solves, and cg is tried again",
+          "[dynamics]") {
+  constexpr int kMostIterations = 2;
+  const QuadMesh mesh = square_sheet(kCells);
+  const ClothModel model = sheet_model(mesh, library_fabric("fine cotton"));
+  VelocitySolve solve(model, SolverKind::cg,
+                      make_linear_solver(SolverKind::cg, {1e-9, kMostIterations}));
+  SystemMatrix matrix(model);
+  solve.analyze(matrix);
+  solve.choose_pins(matrix);
+  matrix.set_zero();
+  matrix.add_masses(1);
+  matrix.add_elasticity(mesh.rest_positions(), 1e-4, 0, ElementHessian::projected);
+  Random random(6);
+  const Positions rest = Positions::Zero(3, model.n_vertices());
+  for (int step = 0; step < 40; ++step) {
+    CAPTURE(step);
+    const Positions wanted = shaken(rest, 1, random);
+    Positions rhs(3, model.n_vertices());
+    flat(rhs) = matrix.lower().selfadjointView<Eigen::Lower>() * flat(wanted);
+    State state{rest, rest};
+    const SolveReport report = solve.advance(matrix, rhs, state, 0, 1, nullptr);
+    CHECK(report.ok());
+    CHECK_FALSE(report.message.empty());
+    CHECK(report.iterations == (step % 16 == 0 ? kMostIterations : 0));
+    CHECK((state.velocities - wanted).norm() < 1e-9 * wanted.norm());
+  }
+}
+
+TEST_CASE("velocity solve: where the factor fails too, what cg came to is reported", "[dynamics]") {
+  const QuadMesh mesh = square_sheet(kCells);
+  const ClothModel model = sheet_model(mesh, library_fabric("fine cotton"));
+  VelocitySolve solve(model, SolverKind::cg, make_linear_solver(SolverKind::cg, {1e-9, 100}));
+  SystemMatrix matrix(model);
+  solve.analyze(matrix);
+  solve.choose_pins(matrix);
+  matrix.set_zero();
+  matrix.add_masses(-1);
+  State state = rest_state(mesh);
+  Positions rhs = Positions::Ones(3, model.n_vertices());
+  const SolveReport report = solve.advance(matrix, rhs, state, 0, 1, nullptr);
+  CHECK(report.status == SolveStatus::not_positive_definite);
+  CHECK(state.velocities.isZero(0));
+}
+
 TEST_CASE("velocity solve: after chance the last change is the first guess", "[dynamics]") {
   Random random(4);
   const Positions none = Positions::Zero(3, kVertices);
