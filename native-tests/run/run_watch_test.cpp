@@ -52,6 +52,36 @@ bool has(const std::vector<RunWarning>& warnings, RunWarning::Kind kind) {
   return false;
 }
 
+/// Quads of 6 mm, split; in every third of the lowest row a vertex lies 10 um above the border.
+std::string obj_with_slivers(int cells) {
+  std::string vertices, slivers, faces;
+  int n_slivers = 0;
+  const auto vertex = [](double x, double y) {
+    return "v " + std::to_string(x) + " " + std::to_string(y) + " 0\n";
+  };
+  const auto face = [&](int a, int b, int c) {
+    faces += "f " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + "\n";
+  };
+  for (int row = 0; row <= cells; ++row)
+    for (int column = 0; column <= cells; ++column) vertices += vertex(0.006 * column, 0.006 * row);
+  for (int row = 0; row < cells; ++row)
+    for (int column = 0; column < cells; ++column) {
+      const int corner = 1 + row * (cells + 1) + column;
+      const int across = corner + cells + 2;
+      face(corner, across, across - 1);
+      if (row > 0 || column % 3 != 2) {
+        face(corner, corner + 1, across);
+        continue;
+      }
+      slivers += vertex(0.006 * column + 0.0042, 1e-5);
+      const int sliver = (cells + 1) * (cells + 1) + ++n_slivers;
+      face(corner, corner + 1, sliver);
+      face(corner + 1, across, sliver);
+      face(across, corner, sliver);
+    }
+  return vertices + slivers + faces;
+}
+
 Json xpbd(int substeps) { return {{"stepper", "xpbd"}, {"substeps", substeps}}; }
 
 }  // namespace
@@ -112,6 +142,23 @@ TEST_CASE("run_watch: nonsense is told before what did not converge, which takes
   CHECK(warnings.front().is_nonsense());
   CHECK_FALSE(warnings.back().is_nonsense());
   CHECK(advice(warnings.back()).rfind("try /method/solver = \"supernodal\"", 0) == 0);
+}
+
+TEST_CASE("run_watch: where cg gives up on slivers a factor solves, which is told", "[run]") {
+  const auto beside = [](const std::string&) { return obj_with_slivers(20); };
+  const Scene scene = read_scene(
+      R"({"cloth": {"mesh": {"obj": "any.obj", "warp_direction": [0, -1, 0]}},
+          "fabric": {"name": "fine cotton"}})",
+      fabric_library(), beside);
+  Simulation simulation(scene);
+  RunWatch watch(simulation);
+  for (int s = 0; s < 6; ++s) watch.check(simulation, simulation.step());
+  CHECK(stretch(simulation.gauge(), simulation.state().positions).largest < 1e-6);
+  REQUIRE(watch.warnings().size() == 1);
+  const RunWarning& warning = watch.warnings().front();
+  CHECK(warning.kind == RunWarning::Kind::given_up);
+  CHECK_FALSE(warning.is_nonsense());
+  CHECK(advice(warning) == "try /method/solver = \"supernodal\"");
 }
 
 TEST_CASE("run_watch: pins that pull cloth apart explain its stretch", "[run]") {
