@@ -21,8 +21,7 @@ struct RunWarning {
     stretch,        ///< cloth is longer than its load explains
     speed,          ///< a vertex is faster than falling and pulling explain
     unsolved,       ///< step after step left most of its equations unsolved
-    not_converged,  ///< a step reported it and left more than a thousandth: no nonsense, as the
-                    ///< next
+    not_converged,  ///< a step reported it, by more than a thousandth: no nonsense, as the next
     given_up,       ///< a factor solved what the solver that was asked for gave up
   };
   Kind kind;

@@ -206,7 +206,7 @@ class StepEquations {
   Positions x_;
   Eigen::VectorXd multipliers_;
   std::vector<Eigen::Triplet<double>> entries_, near_entries_;
-  std::vector<Vec3> alongs_;  // of springs: d(length)/dd
+  std::vector<Vec3> alongs_;  // d(length)/dd of each spring
   Eigen::VectorXd right_side_, reduced_right_side_, change_;
   Eigen::BiCGSTAB<Eigen::SparseMatrix<double, Eigen::RowMajor>, NearFactor> iteration_;
 };

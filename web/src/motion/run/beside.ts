@@ -1,4 +1,4 @@
-// What is measured beside the shown cloth, once its wish has rested.
+// Measures beside the shown cloth, once its wish has rested.
 import type { MeasuringClient, StartMeasuring } from './measuring-client';
 
 export class Beside {

@@ -1,4 +1,4 @@
-// What the reports of a run say of it: its numbers, what a step takes, its pace, and what goes wrong.
+// Reading of the reports of a run: its numbers, what a step takes, its pace, and what goes wrong.
 import type { RunNumbers } from '../../shared/bindings/pleat-module';
 import type { RunReport } from '../../shared/workers/motion-protocol';
 import type { MotionState } from '../state/motion-state';

@@ -1,6 +1,6 @@
 declare module '*/pleat.mjs' {
   interface Options {
-    /** What a first visit needs, compiled, and the rest where that is wanted. */
+    /** The part for a first visit, compiled, and the rest where that is wanted. */
     parts: WebAssembly.Module[];
   }
 

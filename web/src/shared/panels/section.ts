@@ -12,7 +12,7 @@ export function addSection(
   return section;
 }
 
-/** What is folded away behind its summary. */
+/** A part that is folded away behind its summary. */
 export function folded(summary: string, attributes: Attributes, ...children: (Node | string)[]) {
   return element('details', attributes, element('summary', {}, summary), ...children);
 }

@@ -110,7 +110,7 @@ export interface OwnMesh {
   unit: ObjUnit;
 }
 
-/** What a view says of it. */
+/** Sentences of a view about it. */
 export function ownMeshState({ file, unit }: OwnMesh) {
   return { objName: file.name, objUnit: unit, objOdd: oddSize(file, unit) };
 }
