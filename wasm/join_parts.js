@@ -1,20 +1,15 @@
 // Makes one instance of the parts that the module is fetched in. The caller has compiled them: [first] or [first, rest].
-Module['instantiateWasm'] = function (imports, receive) {
-  var first = Module['parts'][0];
-  var rest = Module['parts'][1];
-  // Takes the place of each function of the rest until that is there.
-  var placeholder = {};
-  WebAssembly.Module.imports(first).forEach(function (item) {
-    if (item.module !== 'placeholder') return;
-    placeholder[item.name] = function () {
-      throw new Error('This part of the core was not loaded.');
-    };
-  });
-  WebAssembly.instantiate(first, Object.assign({ placeholder: placeholder }, imports)).then(function (instance) {
-    if (!rest) return receive(instance);
-    return WebAssembly.instantiate(rest, { primary: instance.exports }).then(function () {
-      receive(instance);
-    });
-  });
+Module['instantiateWasm'] = (imports, receive) => {
+  const [first, rest] = Module['parts'];
+  // Stands for each function of the rest until that is there.
+  const missing = () => {
+    throw new Error('This part of the core was not loaded.');
+  };
+  const placeholder = new Proxy({}, { get: () => missing });
+  const join = async (instance) => {
+    if (rest) await WebAssembly.instantiate(rest, { primary: instance.exports });
+    receive(instance);
+  };
+  WebAssembly.instantiate(first, { placeholder, ...imports }).then(join).catch(readyPromiseReject);
   return {};
 };

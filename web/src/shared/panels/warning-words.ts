@@ -21,6 +21,6 @@ export function warningSentence({ kind, time_s, value, bound }: RunWarning): str
     case 'not_converged':
       return `${since} steps did not converge, and left ${percent(value)} of their equations unsolved.`;
     case 'given_up':
-      return `${since} the solver gave up in some steps, and a factor solved them in its place.`;
+      return `${since} a factor solved steps that the solver gave up.`;
   }
 }
