@@ -16,9 +16,9 @@
 namespace pleat {
 namespace {
 
-constexpr double kSubstep = 1e-3;   // [s]
-constexpr double kRounding = 6e-8;  // single precision, relative
-constexpr double kStiffest = 1e6;   // factor on the damping of a fabric
+constexpr double kDamperSubstep = 1e-3;  // [s]
+constexpr double kRounding = 6e-8;       // single precision, relative
+constexpr double kStiffest = 1e6;        // factor on the damping of a fabric
 
 /// Vertices of a model in single precision, moving.
 struct MovingLanes {
@@ -34,7 +34,7 @@ struct MovingLanes {
       const std::size_t slot = slot_of(i);
       for (std::size_t k = 0; k < 3; ++k) {
         const auto axis = static_cast<Eigen::Index>(k);
-        data[k * size + slot] = static_cast<float>(kSubstep * state.velocities(axis, i));
+        data[k * size + slot] = static_cast<float>(kDamperSubstep * state.velocities(axis, i));
         data[(3 + k) * size + slot] = static_cast<float>(state.positions(axis, i));
       }
       if (!model.hangs(VertexId(i)))
@@ -62,7 +62,7 @@ struct MovingLanes {
         const auto axis = static_cast<Eigen::Index>(k);
         const double move = data[k * size + slot_of(i)];
         state.positions(axis, i) = data[(3 + k) * size + slot_of(i)] + move;
-        state.velocities(axis, i) = (move - data[(6 + k) * size + slot_of(i)]) / kSubstep;
+        state.velocities(axis, i) = (move - data[(6 + k) * size + slot_of(i)]) / kDamperSubstep;
       }
     place_between_parents(model.hanging, state);
     return state;
@@ -156,11 +156,11 @@ TEST_CASE("dampers: a pair's relative motion along its spring falls to 1/(1 + h 
     state.velocities.col(0) << 1, 1, 1;
   MovingLanes lanes(model, state);
   const State begin = lanes.state(model);
-  lanes.brake(DamperProgram(model, lanes.layout, kSubstep));
+  lanes.brake(DamperProgram(model, lanes.layout, kDamperSubstep));
   const State end = lanes.state(model);
   CHECK(end.positions == begin.positions);
   const double w = (held ? 0 : 1 / 0.01) + 1 / 0.03;
-  const double left = 1 / (1 + kSubstep * damping * w);
+  const double left = 1 / (1 + kDamperSubstep * damping * w);
   const Vec3 d = (begin.positions.col(0) - begin.positions.col(1)).normalized();
   const Vec3 motion = begin.velocities.col(0) - begin.velocities.col(1);
   const Vec3 braked = isotropic ? motion : Vec3(motion.dot(d) * d);
@@ -184,7 +184,7 @@ TEST_CASE("dampers: none adds energy, however strong, and momentum is kept", "[d
   shake(state, 5);
   place_between_parents(model.hanging, state);
   MovingLanes lanes(model, state);
-  const DamperProgram dampers(model, lanes.layout, kSubstep);
+  const DamperProgram dampers(model, lanes.layout, kDamperSubstep);
   const State begin = lanes.state(model);
   double energy = kinetic_energy(model, begin);
   for (int pass = 0; pass < 10; ++pass) {
@@ -211,10 +211,10 @@ TEST_CASE("dampers: along springs, what moves as a whole is not braked", "[dynam
     state.velocities.col(v) = Vec3(1, 2, 3) + turn.cross(Vec3(state.positions.col(v)));
   MovingLanes lanes(model, state);
   const State begin = lanes.state(model);
-  lanes.brake(DamperProgram(model, lanes.layout, kSubstep));
+  lanes.brake(DamperProgram(model, lanes.layout, kDamperSubstep));
   // A move of 4 mm rounds velocities to 2e-7 m/s; springs are at their ends, h |turn| further on.
   CHECK((lanes.state(model).velocities - begin.velocities).colwise().norm().maxCoeff() <
-        2 * kSubstep * turn.squaredNorm());
+        2 * kDamperSubstep * turn.squaredNorm());
 }
 
 TEST_CASE("dampers: four lanes together give what they give one by one, to the bit", "[dynamics]") {
@@ -230,7 +230,7 @@ TEST_CASE("dampers: four lanes together give what they give one by one, to the b
   shake(state, 7);
   MovingLanes together(model, state);
   MovingLanes one_by_one(model, state);
-  DamperProgram dampers(model, together.layout, kSubstep);
+  DamperProgram dampers(model, together.layout, kDamperSubstep);
   together.brake(dampers);
   dampers.compute_lane_by_lane();
   one_by_one.brake(dampers);
@@ -240,7 +240,7 @@ TEST_CASE("dampers: four lanes together give what they give one by one, to the b
 TEST_CASE("dampers: cloth without is left alone", "[dynamics]") {
   const QuadMesh mesh = graded_sheet(3);
   const ClothModel model = damped_sheet(mesh, 0);
-  CHECK(DamperProgram(model, lane_layout(model), kSubstep).empty());
+  CHECK(DamperProgram(model, lane_layout(model), kDamperSubstep).empty());
 }
 
 // 16 cells in a quarter of a second. With dampers inside the solve a third of these rows explode.
