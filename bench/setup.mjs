@@ -162,7 +162,7 @@ const pageCode = () => Number(logs('page-build').match(/first load, page: ([\d.]
  */
 function download() {
   const folder = [built('web', 'dist', 'assets'), built('build', 'wasm', 'wasm')].find(existsSync);
-  const files = folder ? readdirSync(folder).filter((name) => name.endsWith('.wasm')) : [];
+  const files = folder ? readdirSync(folder).filter((name) => /^pleat\b.*\.wasm$/.test(name)) : [];
   const modules = files.map((file) => {
     const bytes = readFileSync(join(folder, file));
     const [gzip_kb, brotli_kb] = [gzipSync, brotliCompressSync].map(

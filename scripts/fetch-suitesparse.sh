@@ -1,6 +1,6 @@
 #!/bin/sh
 # fetch-suitesparse.sh DIR: puts the source of SuiteSparse's LGPL and BSD parts (configuration, AMD,
-# COLAMD, CHOLMOD's Core, Check and Cholesky) into DIR/src, from Debian's source package.
+# COLAMD, CHOLMOD's Core and Cholesky) into DIR/src, from Debian's source package.
 #
 # Needs apt and xz, no privileges. The machine's own package lists are read, never changed: a private
 # deb-src list stands beside them. DIR/src appears complete or not at all, so that a run cut short can be repeated.
@@ -10,7 +10,7 @@ set -eu
 
 is_complete() {
   for file in SuiteSparse_config/SuiteSparse_config.c AMD/Source/amd_order.c COLAMD/Source/colamd.c \
-    CHOLMOD/Core/cholmod_common.c CHOLMOD/Check/cholmod_check.c CHOLMOD/Cholesky/cholmod_factorize.c; do
+    CHOLMOD/Core/cholmod_common.c CHOLMOD/Cholesky/cholmod_factorize.c; do
     [ -s "$1/$file" ] || return 1
   done
 }

@@ -8,7 +8,7 @@ const PARTS = ['pleat.wasm', 'pleat-rest.wasm'];
 
 /** A core with all of its classes, or the part of them that the caller names. */
 export async function builtCore<Part>(parts = PARTS): Promise<Part> {
-  if (!existsSync(fileOf('pleat.wasm')))
+  if (!parts.every((name) => existsSync(fileOf(name))))
     throw new Error('The WebAssembly module is not built: ./pleat test and ./pleat demo do.');
   const { default: create } = await import(/* @vite-ignore */ fileOf('pleat.mjs').href);
   const files = parts.map((name) => readFileSync(fileOf(name)));
