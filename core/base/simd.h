@@ -10,6 +10,7 @@ namespace pleat {
 /// One number, or the compiler's vector of several, which takes the same operators.
 template <class Number, int n>
 struct LaneNumbers {
+  // NOLINTNEXTLINE(modernize-use-using): GCC takes no attribute of a dependent size in "using"
   typedef Number Type __attribute__((vector_size(n * sizeof(Number)), aligned(16)));
 };
 template <class Number>

@@ -15,6 +15,9 @@ namespace {
 /// and its corners hang. More than these gain nothing on garments.
 constexpr std::size_t kLargestGroup = 4;
 
+/// Share by which the losses of mirrored faces differ at most, for their sums round differently.
+constexpr double kMirrorRounding = 1e-9;
+
 /// The face beyond each edge of each face, of the same level; invalid at a border.
 std::vector<std::array<FaceId, 4>> faces_beyond(const QuadMesh& fine) {
   std::unordered_map<std::uint64_t, std::array<FaceId, 2>> sides;  // only looked up
@@ -42,13 +45,18 @@ struct Step {
   std::vector<FaceId> splits;
   std::vector<FaceId> wanted;  // the others are for balance
 
+  /// More than by rounding: a face and its mirror image save the same.
   bool saves_more_each(const Step& other) const {
-    return saved * other.n_added > other.saved * n_added;
+    const double own = saved * other.n_added;
+    const double others = other.saved * n_added;
+    return own - others > kMirrorRounding * std::abs(others);
   }
+
+  float rate() const { return static_cast<float>(saved / n_added); }
 };
 
 struct Candidate {
-  double rate;  // saved for each vertex that is added [m^4]
+  float rate;  // saved for each vertex that is added [m^4], so that mirrored faces are equal
   FaceId face;
   int version;
 
@@ -88,8 +96,8 @@ class ShapeSplitter {
       if (is_split_[next.face] || next.version != versions_[next.face]) continue;
       const Step step = best_step(next.face);
       if (step.splits.empty()) continue;
-      if (const double rate = step.saved / step.n_added; rate < next.rate)  // there is less room
-        queue_.push({rate, next.face, next.version});
+      if (step.rate() < next.rate)  // there is less room
+        queue_.push({step.rate(), next.face, next.version});
       else
         make(step);
     }
@@ -195,7 +203,7 @@ class ShapeSplitter {
     reader_ = face;
     const Step step = best_step(face);
     reader_ = FaceId();
-    if (!step.splits.empty()) queue_.push({step.saved / step.n_added, face, ++versions_[face]});
+    if (!step.splits.empty()) queue_.push({step.rate(), face, ++versions_[face]});
   }
 
   void make(const Step& step) {
