@@ -265,21 +265,6 @@ void print_summary(const Simulation& simulation, const RunSummary& summary, cons
                 100 * energy->at("share_of_largest_kinetic_energy").get<double>());
 }
 
-/// Slower cloth is written as if it were at rest [m/s].
-constexpr double kRestSpeed = 1e-2;
-
-/// Writes a scene's "start": to a micrometre, and a micrometre per second.
-std::string state_text(const State& state) {
-  const auto rounded = [](const Positions& columns) {
-    constexpr double kPerUnit = 1e6;
-    return Positions((columns * kPerUnit).array().round() / kPerUnit);
-  };
-  StartState start{rounded(state.positions), {}, 0};
-  if (state.velocities.colwise().norm().maxCoeff() > kRestSpeed)
-    start.velocities = rounded(state.velocities);
-  return json_start(start).dump() + '\n';
-}
-
 Outcome run_command(Arguments arguments) {
   const bool for_machines = arguments.flag("--json");
   const bool checks = arguments.flag("--check");
@@ -320,7 +305,8 @@ Outcome run_command(Arguments arguments) {
     if (out) write_file(out.other_file(), format_json(metrics));
     if (dump) write_stiffness(simulation, dump->stiffness_end);
     if (!summary.report.ends_run()) {
-      if (state) write_file(*state, state_text(simulation.state()));
+      const State& end = simulation.state();
+      if (state) write_file(*state, json_start({end.positions, end.velocities, 0}).dump() + '\n');
       tell_warnings(summary.warnings);
       return checks && !summary.warnings.empty() ? Outcome::check_failed : Outcome::ok;
     }
@@ -338,9 +324,10 @@ extern const Command kRunCommand(
     R"(  --out DIR              write frames and metrics.json into this folder, which holds none yet
   --dump DIR             write mass.mtx, stiffness_begin.mtx and stiffness_end.mtx (Matrix Market)
                          into this folder, which holds none yet
-  --state FILE           write where the cloth is and how fast at the end, for a scene's "start"
+  --state FILE           write where the cloth is and how fast at the end, to the last digit, for a
+                         scene's "start"
   --check                exit status 1 when there is a warning: the run shows nonsense, or a step
-                         did not converge
+                         did not converge and left more than a thousandth of its equations
   --overwrite            remove or replace those of an earlier run
   --drift                account for the energy: what no force explains is the method's own
 )");

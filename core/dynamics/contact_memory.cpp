@@ -68,6 +68,10 @@ void ContactMemory::let_go(State& state, double h, const Eigen::VectorXd& resist
   }
 }
 
+double ContactMemory::friction_of(const Touch& touch) const {
+  return model_.contact->colliders()[static_cast<std::size_t>(touch.solid)].friction;
+}
+
 void ContactMemory::forget_untouched() {
   Eigen::Index first_untouched = 0;
   const auto forget_until = [&](Eigen::Index end) {
@@ -82,7 +86,8 @@ void ContactMemory::forget_untouched() {
 
 // The solve holds a vertex that slips along the normal alone, so that it hears of friction only as
 // a remembered force. That takes an augmented Lagrangian's step, with the resistance r, and is then
-// held to Coulomb's cone. Once it would drive the vertex, the vertex sticks.
+// held to Coulomb's cone. Once it would drive the vertex, the vertex sticks, if there is friction
+// at all: without it the sign of what rounding leaves of it would decide.
 void ContactMemory::add_friction(const Positions& positions_begin, const State& state, double h,
                                  const Eigen::VectorXd& resistances) {
   for (Touch& touch : touches_) {
@@ -91,7 +96,7 @@ void ContactMemory::add_friction(const Positions& positions_begin, const State& 
     const Vec3 friction_before = across(forces_.col(v), touch.normal);
     const Vec3 slide =
         solved_velocities_.col(v) - model_.contact->solid_velocity(touch, positions_begin.col(v));
-    touch.sticks = friction_before.dot(slide) > 0;
+    touch.sticks = friction_of(touch) > 0 && friction_before.dot(slide) > 0;
     if (touch.sticks) continue;
     forces_.col(v) += std::max(kFrictionShare * resistances[v] - model_.masses[v], 0.0) / h *
                       across(state.velocities.col(v) - solved_velocities_.col(v), touch.normal);
@@ -108,9 +113,7 @@ void ContactMemory::add_forces(std::span<const Touch> touches, const Positions& 
     if (touch.in_corner) continue;
     const double pressing = touch.normal.dot(force);
     const Vec3 rubbing = force - pressing * touch.normal;
-    const double friction =
-        model_.contact->colliders()[static_cast<std::size_t>(touch.solid)].friction;
-    const double most = friction * std::max(pressing, 0.0);
+    const double most = friction_of(touch) * std::max(pressing, 0.0);
     const double size = rubbing.norm();
     if (size > most) force = pressing * touch.normal + most / size * rubbing;
   }

@@ -52,6 +52,7 @@ class ContactMemory {
   bool has_forces() const { return forces_.cols() > 0; }
 
  private:
+  double friction_of(const Touch& touch) const;
   void forget_untouched();
   void add_friction(const Positions& positions_begin, const State& state, double h,
                     const Eigen::VectorXd& resistances);

@@ -95,8 +95,8 @@ class Stepper {
   /// vertices hang.
   void set_external_forces(const State& state, PositionsRef forces);
 
-  /// Bounds an iterative solver's way to the end of a substep; reaching it is reported as not
-  /// converged.
+  /// Bounds an iterative solver's way to the end of a substep; where it is reached, it has given
+  /// up.
   static constexpr int kMaxSolverIterations = 2000;
 
   /// The solver that the options name; max_iterations is for cg and sor. Throws InputError when

@@ -114,6 +114,14 @@ Fabric read_fabric(const JsonReader& reader, const Sources& sources) {
   return fabric;
 }
 
+/// True for "coarse cotton" and "denim" of "coarse cotton (denim)".
+bool is_half_of(std::string_view whole, std::string_view name) {
+  const std::size_t bracket = whole.find(" (");
+  if (bracket == std::string_view::npos || whole.back() != ')') return false;
+  return whole.substr(0, bracket) == name ||
+         whole.substr(bracket + 2, whole.size() - bracket - 3) == name;
+}
+
 }  // namespace
 
 const Fabric& FabricLibrary::find(std::string_view name) const {
@@ -122,6 +130,8 @@ const Fabric& FabricLibrary::find(std::string_view name) const {
     if (fabric.name == name) return fabric;
     known += (known.empty() ? "" : ", ") + fabric.name;
   }
+  for (const Fabric& fabric : fabrics)
+    if (is_half_of(fabric.name, name)) return fabric;
   throw InputError("/fabric/name", "expected one of " + known + ", got " + abbreviated(Json(name)));
 }
 

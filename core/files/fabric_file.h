@@ -13,7 +13,8 @@ struct FabricLibrary {
   std::vector<Fabric> fabrics;
   std::map<std::string, std::string> sources;  ///< key to citation
 
-  /// Throws InputError at /fabric/name listing the known names when there is none of that name.
+  /// Either name finds a fabric that has a second one in brackets. Throws InputError at
+  /// /fabric/name listing the known names when there is none of that name.
   const Fabric& find(std::string_view name) const;
 };
 

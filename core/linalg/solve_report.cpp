@@ -8,7 +8,7 @@ namespace pleat {
 void SolveReport::add(SolveReport part) {
   iterations += part.iterations;
   relative_residual = std::max(relative_residual, part.relative_residual);
-  if (part.ok()) return;
+  if (part.ok() && (!ok() || part.message.empty())) return;
   status = part.status;
   message = std::move(part.message);
 }

@@ -23,15 +23,15 @@ struct SolveReport {
   SolveStatus status = SolveStatus::ok;
   int iterations = 0;            ///< 0 for direct methods
   double relative_residual = 0;  ///< residual of the equations that the task solves
-  std::string message;           ///< empty when ok
+  std::string message;           ///< when ok, empty, or what another method did in its place
 
   bool ok() const { return status == SolveStatus::ok; }
   /// True when the numbers cannot go on from the result.
   bool ends_run() const { return !ok() && status != SolveStatus::not_converged; }
 
   /// Makes this the report of a task with one part more: iterations are summed, the residual is the
-  /// largest, status and message are those of the last part that was not ok. A cap met in an
-  /// earlier part is not hidden by a later one that is ok.
+  /// largest, status and message are those of the last part that was not ok, if any. A cap met in
+  /// an earlier part is not hidden by a later one that is ok.
   void add(SolveReport part);
 };
 

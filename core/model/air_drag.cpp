@@ -74,22 +74,19 @@ void AirDrag::add_forces(const PositionsView& positions, const PositionsView& ve
   forces += drag_;
 }
 
-void AirDrag::add_damped_forces(const PositionsView& positions, const PositionsView& velocities,
+// With a = h D/m and dv = h (F + G)/m, F = f - D dv is (I + a) F = f - a G.
+void AirDrag::set_damped_forces(const PositionsView& positions, const PositionsView& velocities,
                                 const Eigen::VectorXd& masses,
                                 std::span<const HangingVertex> hanging, double h,
-                                Positions& applied, PositionsRef forces) {
+                                const PositionsView& others, PositionsRef forces) {
   evaluate(positions, velocities);
   pull_to_parents(hanging, drag_);
   pull_to_parents(hanging, resistance_);
+  forces.setZero();
   for (Eigen::Index i = 0; i < drag_.cols(); ++i) {
     if (masses[i] == 0) continue;
-    const Mat3 damped = Mat3::Identity() + h / masses[i] * resistance(VertexId(i));
-    if (!wind_) {
-      forces.col(i) += damped.inverse() * drag_.col(i);
-      continue;
-    }
-    applied.col(i) += damped.inverse() * (drag_.col(i) - applied.col(i));
-    forces.col(i) += applied.col(i);
+    const Mat3 a = h / masses[i] * resistance(VertexId(i));
+    forces.col(i) = (Mat3::Identity() + a).inverse() * (drag_.col(i) - a * others.col(i));
   }
 }
 

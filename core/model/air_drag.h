@@ -42,15 +42,14 @@ class AirDrag {
   void add_forces(const PositionsView& positions, const PositionsView& velocities,
                   std::span<const HangingVertex> hanging, PositionsRef forces);
 
-  /// Adds F in place of the law's f, for steps of h [s], positive, that do not solve for drag: F <-
-  /// F + (I + h D/m)^-1 (f - F) from step to step. First-order consistent, stable for any h, and
-  /// equal to f where motion is steady. In still air F is zero at the start of each step, so that
-  /// drag never turns motion round.
+  /// Evaluates, and sets `forces` [N] to F in place of the law's f, for steps of h [s] that do not
+  /// solve for drag: F = f - D dv with the change dv of velocity that F and other forces G make. It
+  /// is first-order consistent, stable for any h, and equal to f where motion is steady.
   ///
-  /// applied  F, one column a vertex, zero at first [N]; not used in still air
-  void add_damped_forces(const PositionsView& positions, const PositionsView& velocities,
+  /// others  G, one column a vertex [N]: what is known of them, as those of the last step
+  void set_damped_forces(const PositionsView& positions, const PositionsView& velocities,
                          const Eigen::VectorXd& masses, std::span<const HangingVertex> hanging,
-                         double h, Positions& applied, PositionsRef forces);
+                         double h, const PositionsView& others, PositionsRef forces);
 
   /// Sets a factor on the force, 1 at first: lets drag keep up while motion is carried over to
   /// cloth of another weight.

@@ -9,7 +9,6 @@
 
 #include "core/base/check.h"
 #include "core/dynamics/position_based/converged_step.h"
-#include "core/dynamics/position_based/spring_law.h"
 #include "core/dynamics/position_based/step_solve.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/run/part_timer.h"
@@ -54,7 +53,7 @@ struct Begin {
   double time = 0;  // [s]
 };
 
-void check_cloth(const Simulation& simulation, Constraints constraints) {
+void check_cloth(const Simulation& simulation) {
   const ClothModel& model = simulation.model();
   if (!model.is_plain_spring_lattice() || model.springs.empty())
     throw InputError("/model", "expected springs with quadratic bending or none");
@@ -62,13 +61,11 @@ void check_cloth(const Simulation& simulation, Constraints constraints) {
     throw InputError("/refinement", "expected a uniform mesh, on which no vertex hangs");
   if (simulation.triangles().empty())
     throw InputError("/cloth", "expected a surface, of which coarser levels are made");
-  if (spring_law(model, constraints) == SpringLaw::damped_isotropic)
-    throw InputError("/model/damping", "expected damping along springs where these are compliant");
 }
 
 Begin run_until(const Scene& scene, const ConvergenceOptions& options) {
   Simulation simulation(scene);
-  check_cloth(simulation, options.constraints);
+  check_cloth(simulation);
   const auto n_steps = std::llround(options.time / scene.method.step);
   for (std::int64_t s = 0; s < n_steps; ++s) {
     if (const SolveReport report = simulation.step(); report.ends_run())

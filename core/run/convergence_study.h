@@ -64,8 +64,7 @@ struct ConvergenceStudy {
 /// Milliseconds are of solves from the start, again and again for 50 ms and more.
 ///
 /// Throws InputError where the cloth has no surface or is not of springs, where vertices hang,
-/// where compliant springs damp other than along themselves, and for a run that ends before its
-/// time.
+/// and for a run that ends before its time.
 ConvergenceStudy study_convergence(const Scene& scene, const ConvergenceOptions& options);
 
 }  // namespace pleat

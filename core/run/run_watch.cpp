@@ -28,6 +28,9 @@ constexpr double kLeastSpeed = 1;  // [m/s]
 /// unless so many looks in a row find the same: then the run falls behind its equations.
 constexpr double kUnsolved = 0.5;
 constexpr int kUnsolvedLooks = 5;
+/// The default tolerance takes less for solved: it is no warning, though a stricter one was asked
+/// for.
+constexpr double kNotConverged = 1e-3;
 
 /// Force per strain of a gauge's edge [N].
 double edge_stiffness(const Scene& scene, const GaugeEdge& edge) {
@@ -138,6 +141,7 @@ std::vector<SettingHint> hints_for(RunWarning::Kind kind, const Scene& scene) {
   std::vector<SettingHint> hints;
   const bool is_unsolved =
       kind == RunWarning::Kind::unsolved || kind == RunWarning::Kind::not_converged;
+  if (kind == RunWarning::Kind::given_up) return {{"/method/solver", name(SolverKind::supernodal)}};
   if (is_unsolved && method.stepper->reads("solver") && method.solver == SolverKind::cg)
     hints.push_back({"/method/solver", name(SolverKind::supernodal)});
   if (method.stepper->reads("iterations") && method.iterations < 10)
@@ -148,11 +152,12 @@ std::vector<SettingHint> hints_for(RunWarning::Kind kind, const Scene& scene) {
   return hints;
 }
 
-constexpr std::array<Word<RunWarning::Kind>, 4> kKinds = {
+constexpr std::array<Word<RunWarning::Kind>, 5> kKinds = {
     {{"stretch", RunWarning::Kind::stretch},
      {"speed", RunWarning::Kind::speed},
      {"unsolved", RunWarning::Kind::unsolved},
-     {"not_converged", RunWarning::Kind::not_converged}}};
+     {"not_converged", RunWarning::Kind::not_converged},
+     {"given_up", RunWarning::Kind::given_up}}};
 
 }  // namespace
 
@@ -171,6 +176,8 @@ std::string sentence(const RunWarning& warning) {
       return since + " on, steps left " + left;
     case RunWarning::Kind::not_converged:
       return since + " on, steps did not converge and left " + left;
+    case RunWarning::Kind::given_up:
+      return since + " on, the solver gave up in some steps, and a factor solved them in its place";
   }
   return "";
 }
@@ -291,8 +298,10 @@ void RunWatch::check_report(const Simulation& simulation, const SolveReport& ste
   };
   if (n_unsolved_ >= kUnsolvedLooks)
     told(RunWarning::Kind::unsolved, unsolved_since_, kUnsolved);
-  else if (step.status == SolveStatus::not_converged)
-    told(RunWarning::Kind::not_converged, simulation.time(), 0);
+  else if (step.status == SolveStatus::not_converged && step.relative_residual > kNotConverged)
+    told(RunWarning::Kind::not_converged, simulation.time(), kNotConverged);
+  else if (step.ok() && !step.message.empty())
+    told(RunWarning::Kind::given_up, simulation.time(), 0);
 }
 
 /// Keeps the first time and the worst value.

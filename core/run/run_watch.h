@@ -21,7 +21,8 @@ struct RunWarning {
     stretch,        ///< cloth is longer than its load explains
     speed,          ///< a vertex is faster than falling and pulling explain
     unsolved,       ///< step after step left most of its equations unsolved
-    not_converged,  ///< a step reported it, by however little: the one that is not nonsense
+    not_converged,  ///< a step reported it, by more than a thousandth: no nonsense, as the next
+    given_up,       ///< a factor solved what the solver that was asked for gave up
   };
   Kind kind;
   double time;      ///< when it was first seen [s]
@@ -30,7 +31,7 @@ struct RunWarning {
   double bound;     ///< limit that the first one exceeded, in the same unit
   std::vector<SettingHint> hints;
 
-  bool is_nonsense() const { return kind != Kind::not_converged; }
+  bool is_nonsense() const { return kind != Kind::not_converged && kind != Kind::given_up; }
 };
 
 /// Sentence on the observation, its place, its time, and what the scene explains.

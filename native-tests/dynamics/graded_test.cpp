@@ -448,12 +448,11 @@ TEST_CASE("graded: drag is shared among free vertices as mass is", "[dynamics]")
   const double h = GENERATE(0.0, 0.1);
   const Positions v = Vec3(0.3, -1, 2).replicate(1, mesh.n_vertices());
   Positions forces = Positions::Zero(3, mesh.n_vertices());
-  Positions applied = forces;
+  const Positions others = forces;
   if (h == 0)
     air.add_forces(mesh.rest_positions(), v, model.hanging, forces);
   else
-    air.add_damped_forces(mesh.rest_positions(), v, model.masses, model.hanging, h, applied,
-                          forces);
+    air.set_damped_forces(mesh.rest_positions(), v, model.masses, model.hanging, h, others, forces);
   const Vec3 per_mass = forces.rowwise().sum() / model.masses.sum();
   CHECK(per_mass.norm() > 0.1);
   CHECK(relative_error(forces, Positions(per_mass * model.masses.transpose())) < 1e-12);

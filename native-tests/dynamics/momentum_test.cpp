@@ -55,13 +55,15 @@ TEST_CASE("steppers: projective keeps the momentum after any number of rounds", 
   CHECK((momentum(model, after(model, options, 0.2)) - before).norm() < 1e-11 * before.norm());
 }
 
-TEST_CASE("steppers: implicit with cg keeps the momentum to the solver's tolerance", "[dynamics]") {
+TEST_CASE("steppers: an iterative solver keeps the momentum, however loose its tolerance",
+          "[dynamics]") {
   ClothModel model = sheet_model(free_mesh(), soft_fabric());
   MethodOptions options = converged_methods(0.002)[1];
-  options.solver = SolverKind::cg;
-  options.tolerance = 1e-6;
+  options.stepper = GENERATE(&steppers::kImplicitEuler, &steppers::kImex);
+  options.solver = GENERATE(SolverKind::cg, SolverKind::sor);
+  options.tolerance = GENERATE(0.3, 1e-3, 1e-6);
   const Vec3 before = momentum(model, tumbling_state());
-  CHECK((momentum(model, after(model, options, 0.2)) - before).norm() < 1e-5 * before.norm());
+  CHECK((momentum(model, after(model, options, 0.2)) - before).norm() < 1e-11 * before.norm());
 }
 
 TEST_CASE("steppers: explicit keeps the angular momentum to rounding", "[dynamics]") {

@@ -74,6 +74,18 @@ void check_refused(const json& document, const BadFabric& bad) {
 
 }  // namespace
 
+TEST_CASE("fabric file: a fabric is found by either of its names", "[files]") {
+  const FabricLibrary& library = fabric_library();
+  const Fabric& denim = library.find("coarse cotton (denim)");
+  CHECK(&library.find("denim") == &denim);
+  CHECK(&library.find("coarse cotton") == &denim);
+  for (const char* name : {"cotton", "(denim)", "denim)", "coarse cotton (", ""})
+    CHECK_THROWS_AS(library.find(name), InputError);
+  FabricLibrary both = library;
+  both.fabrics[5].name = "denim";
+  CHECK(&both.find("denim") == &both.fabrics[5]);
+}
+
 TEST_CASE("fabric file: all fifteen fabrics are read with range, confidence and sources",
           "[files]") {
   const FabricLibrary& library = fabric_library();

@@ -11,7 +11,7 @@ StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options
 
 StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options, int substeps)
     : Stepper(model, options, substeps, ContactForces::remembered),
-      solve_(model, make_solver(options, kMaxSolverIterations)),
+      solve_(model, options.solver, make_solver(options, kMaxSolverIterations)),
       forces_(3, model.n_vertices()) {
   if (model_.contact) hold_.emplace(model_);
 }

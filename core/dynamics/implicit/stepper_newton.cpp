@@ -154,7 +154,8 @@ void StepperNewton::evaluate_gradient() {
     gradient_ += model_.air->forces();
   }
   pull_to_parents(model_.hanging, gradient_);
-  residual_scale_ = loads_.norm() + gradient_.norm();
+  residual_scale_ =
+      std::max(loads_.norm() + gradient_.norm(), model_.gravity.norm() * model_.masses.norm());
   change_ = flat(positions_) - flat(positions_begin_);
   flat(product_).noalias() = base_.selfadjointView<Eigen::Lower>() * change_;
   pull_to_parents(model_.hanging, product_);

@@ -41,7 +41,10 @@ StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& opt
     proposed_.resize(3, model.n_vertices());
   }
   if (model_.contact) hold_.emplace(model_, kHeldShare);
-  if (model.air && model.air->has_wind()) air_forces_ = Positions::Zero(3, model.n_vertices());
+  if (model.air) {
+    air_forces_.resize(3, model.n_vertices());
+    other_forces_ = model.gravity * model.masses.transpose();
+  }
   refresh();
 }
 
@@ -213,15 +216,21 @@ void StepperProjective::accelerate(double h) {
   }
 }
 
-/// Starts without the remembered forces: alone they would throw a light vertex far away from its
-/// neighbours. The rounds do not find friction of a vertex that slips, so it stays, as far as it
-/// brakes.
+// Every round lowers the step's energy. Cloth at rest, from where it is, thus stays there only if
+// its forces balance, however few the rounds: so they begin at x + h v, and not where the forces
+// alone would take it. Cloth that falls is ahead of that by h^2 g, cloth that is held up is not,
+// and one share for all, that with which the last substep fell, tells them apart without bending
+// anything. Held vertices, whom rounds let slip but little, begin where their forces take them
+// without the remembered ones: alone these would throw a light vertex far away from its neighbours.
+// Friction of one that slips, which rounds do not find, stays, as far as it brakes.
 void StepperProjective::place_first_guess(double time_end, double h) {
-  positions_ = predicted_;
-  if (contact_memory_.has_forces())
-    for (int i = 0; i < model_.n_vertices(); ++i)
-      if (!model_.hangs(VertexId(i)))
-        positions_.col(i) -= h * h / model_.masses[i] * contact_memory_.forces().col(i);
+  positions_ = positions_begin_ + h * velocities_begin_;
+  positions_.colwise() += fall_share_ * h * h * model_.gravity;
+  if (hold_)
+    for (const ContactHold::Held& held : hold_->held())
+      positions_.col(held.vertex) =
+          predicted_.col(held.vertex) -
+          h * h / model_.masses[held.vertex] * contact_memory_.forces().col(held.vertex);
   for (const Pin& pin : model_.pins) positions_.col(pin.vertex) = pin.position(time_end);
   place_between_parents(model_.hanging, positions_);
   first_change_ = positions_;
@@ -240,17 +249,37 @@ void StepperProjective::place_first_guess(double time_end, double h) {
   }
 }
 
+void StepperProjective::add_air_forces(const State& begin, double h) {
+  model_.air->set_damped_forces(begin.positions, begin.velocities, model_.masses, model_.hanging, h,
+                                other_forces_, air_forces_);
+  forces_ += air_forces_;
+}
+
+void StepperProjective::remember_motion(const State& end, double h) {
+  Vec3 change = Vec3::Zero();
+  double mass = 0;
+  for (int i = 0; i < model_.n_vertices(); ++i) {
+    if (is_free_[i] == 0) continue;
+    change += model_.masses[i] * (end.velocities.col(i) - velocities_begin_.col(i));
+    mass += model_.masses[i];
+  }
+  const double whole_fall = h * mass * model_.gravity.squaredNorm();
+  if (whole_fall > 0) fall_share_ = std::clamp(change.dot(model_.gravity) / whole_fall, 0.0, 1.0);
+  if (!model_.air) return;
+  other_forces_ = (end.velocities - velocities_begin_) * model_.masses.asDiagonal() / h;
+  other_forces_ -= air_forces_;
+}
+
 SolveReport StepperProjective::substep(State& state, double time_end, double h) {
   if (!factor_report_.ok()) return factor_report_;
   positions_begin_ = state.positions;
+  velocities_begin_ = state.velocities;
   if (hold_) hold(state, h);
   if (!factor_report_.ok()) return factor_report_;
   {
     const PartScope scope(observer_, Part::forces);
     set_steady_forces(forces_);
-    if (model_.air)
-      model_.air->add_damped_forces(state.positions, state.velocities, model_.masses,
-                                    model_.hanging, h, air_forces_, forces_);
+    if (model_.air) add_air_forces(state, h);
     for (int i = 0; i < model_.n_vertices(); ++i) {
       if (model_.hangs(VertexId(i))) continue;
       predicted_.col(i) = state.positions.col(i) + h * state.velocities.col(i) +
@@ -280,11 +309,13 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
   state.velocities = (positions_ - positions_begin_) / h;
   if (hold_) hold_->add_forces(state.velocities, h, contact_memory_.forces());
   correct(state, time_end, h, hold_ ? hold_->resistances() : model_.masses);
+  remember_motion(state, h);
   return report;
 }
 
-/// |b(x) - A x| over its value where neither springs nor solids act, for the last substep. Cloth
-/// that only falls is predicted to rounding: what rounding makes of A x is nothing to be solved.
+/// |b(x) - A x| over its value at the first guess, or over the weight where that is more, for the
+/// last substep: cloth that only falls or rests is guessed right, and what is left there is a share
+/// of nothing. Of cloth without weight, what rounding makes of A x is nothing to be solved either.
 void StepperProjective::store(State&, SolveReport& report) {
   if (!report.ok()) return;
   set_right_side(time_end_, options().step / substeps());
@@ -308,7 +339,11 @@ void StepperProjective::store(State&, SolveReport& report) {
     clear_hanging();
     last += column_.squaredNorm();
   }
-  report.relative_residual = first > 0 ? std::sqrt(last / std::max(first, rounding)) : 0;
+  double weight = 0;
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    if (is_free_[i] != 0) weight += (model_.masses[i] * model_.gravity).squaredNorm();
+  const double scale = std::max({first, weight, rounding});
+  report.relative_residual = scale > 0 ? std::sqrt(last / scale) : 0;
 }
 
 }  // namespace pleat

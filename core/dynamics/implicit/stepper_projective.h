@@ -52,6 +52,8 @@ class StepperProjective final : public Stepper {
   };
 
   void hold(const State& state, double h);
+  void add_air_forces(const State& begin, double h);
+  void remember_motion(const State& end, double h);
   void place_first_guess(double time_end, double h);
   void set_targets(double h);
   /// The right-hand side of the global solve into `side`: M/h^2 y, what pull_of gives for each
@@ -75,12 +77,13 @@ class StepperProjective final : public Stepper {
   SolveReport factor_report_;
   std::vector<PinnedEntry> pinned_entries_;
   std::vector<Target> targets_;
+  Positions velocities_begin_;  // start of the substep [m/s]
   Positions forces_;
-  Positions air_forces_;  // applied in the last substep, in wind [N]
-  Positions predicted_;   // x + h v + h^2 M^-1 f_external; 0 where vertices hang
+  Positions air_forces_;    // drag in the substep; models with air only [N]
+  Positions other_forces_;  // all but drag, in the last substep; models with air only [N]
+  Positions predicted_;     // x + h v + h^2 M^-1 f_external; 0 where vertices hang
   Positions positions_;
-  Positions
-      first_change_;  // way from where neither springs nor solids act to the first round's end
+  Positions first_change_;  // way from the first guess, before solids, to the first round's end
   VertexRows right_side_;
   VertexRows solution_;
   Eigen::VectorXd column_;
@@ -88,7 +91,8 @@ class StepperProjective final : public Stepper {
   LoadedRows start_;        // start of the substep's first round
   VertexRows steady_side_;  // part of the right-hand side that no round changes
   Positions proposed_;
-  double time_end_ = 0;  // end of the last substep [s]
+  double time_end_ = 0;    // end of the last substep [s]
+  double fall_share_ = 1;  // share of a free fall's acceleration that the last substep had
 };
 
 }  // namespace pleat

@@ -16,7 +16,7 @@ constexpr double kLinearResidual = 1e-9;
 
 struct StepSpring {
   Eigen::Index a, b;
-  double rest;        // length it aims at [m]
+  double rest;        // [m]
   double compliance;  // compliance/h^2, relative to the inverse masses
 };
 
@@ -69,20 +69,14 @@ class StepEquations {
   StepEquations(const ClothModel& model, const PredictedStep& step)
       : model_(model), step_(step), unknowns_(3 * model.n_vertices()) {
     PLEAT_CHECK(model.hanging.empty(), "no vertex hangs");
-    const SpringLaw law = spring_law(model, Constraints::compliant);
-    PLEAT_CHECK(law != SpringLaw::damped_isotropic, "damping acts along springs");
     mean_mass_ = model.masses.mean();
     is_held_.resize(static_cast<std::size_t>(model.n_vertices()), false);
     for (const Pin& pin : model.pins) is_held_[pin.vertex] = true;
     const double h = step.h;
-    for (const int s : active_springs(model, law)) {
+    for (const int s : active_springs(model)) {
       const Spring& spring = model.springs[static_cast<std::size_t>(s)];
-      const double damper = law == SpringLaw::damped ? spring.damping / h : 0;
-      const double stiffness = spring.stiffness + damper;
-      const double begin = (step.begins.col(spring.a) - step.begins.col(spring.b)).norm();
-      springs_.push_back({spring.a.value, spring.b.value,
-                          spring.rest_length + damper / stiffness * (begin - spring.rest_length),
-                          mean_mass_ / (stiffness * h * h)});
+      springs_.push_back({spring.a.value, spring.b.value, spring.rest_length,
+                          mean_mass_ / (spring.stiffness * h * h)});
     }
     x_ = step.predicted;
     multipliers_.setZero(static_cast<Eigen::Index>(springs_.size()));

@@ -24,8 +24,8 @@ struct ConvergedStep {
 /// solve.
 ///
 /// Springs are compliant, for rigid ones single out no solution: of a flat sheet of triangles they
-/// are more than its places have numbers in its plane. Damping is along springs. Cloth with hanging
-/// vertices throws ContractError.
+/// are more than its places have numbers in its plane. Dampers brake what comes of it, and are no
+/// part of it. Cloth with hanging vertices throws ContractError.
 ConvergedStep converged_step(const ClothModel& model, const PredictedStep& step);
 
 }  // namespace pleat

@@ -12,28 +12,21 @@ constexpr float kDiagonalSlack = 0.857f;
 
 }  // namespace
 
-SpringLaw spring_law(const ClothModel& model, Constraints constraints) {
+SpringLaw spring_law(Constraints constraints) {
   if (constraints == Constraints::rigid) return SpringLaw::rigid;
   if (constraints == Constraints::rigid_threads) return SpringLaw::rigid_threads;
-  const bool damped = std::any_of(model.springs.begin(), model.springs.end(),
-                                  [](const Spring& spring) { return spring.damping > 0; });
-  if (!damped) return SpringLaw::elastic;
-  return model.damping_direction == DampingDirection::isotropic ? SpringLaw::damped_isotropic
-                                                                : SpringLaw::damped;
+  return SpringLaw::elastic;
 }
 
-std::vector<int> active_springs(const ClothModel& model, SpringLaw law) {
+std::vector<int> active_springs(const ClothModel& model) {
   std::vector<int> active;
-  for (std::size_t s = 0; s < model.springs.size(); ++s) {
-    const Spring& spring = model.springs[s];
-    if (spring.stiffness > 0 || (!is_rigid(law) && spring.damping > 0))
-      active.push_back(static_cast<int>(s));
-  }
+  for (std::size_t s = 0; s < model.springs.size(); ++s)
+    if (model.springs[s].stiffness > 0) active.push_back(static_cast<int>(s));
   return active;
 }
 
-std::vector<int> free_springs(const ClothModel& model, SpringLaw law) {
-  std::vector<int> springs = active_springs(model, law);
+std::vector<int> free_springs(const ClothModel& model) {
+  std::vector<int> springs = active_springs(model);
   std::erase_if(springs, [&model](int s) {
     const Spring& spring = model.springs[static_cast<std::size_t>(s)];
     return model.hangs(spring.a) || model.hangs(spring.b);
@@ -64,16 +57,9 @@ void SpringBlock::set_lane(std::size_t lane, const Spring& spring, SpringLaw law
     denominator_share[lane] = gives_way ? kDiagonalSlack : kRigidCompliance;
     return;
   }
-  // k/2 (l - L)^2 + c/(2h) (l - l_begin)^2 is one spring of stiffness k + c/h about a length
-  // between L and l_begin.
-  const double damper = law == SpringLaw::elastic ? 0 : spring.damping / h;  // [N/m]
-  const double stiffness = spring.stiffness + damper;
   rest[lane] = static_cast<float>(length);
-  compliance[lane] = static_cast<float>(mean_mass / (stiffness * h * h));
+  compliance[lane] = static_cast<float>(mean_mass / (spring.stiffness * h * h));
   denominator_share[lane] = compliance[lane] + kRigidCompliance;
-  damper_share[lane] = static_cast<float>(damper / stiffness);
-  if (law == SpringLaw::damped_isotropic && damper > 0)
-    across_compliance[lane] = static_cast<float>(mean_mass / (damper * h * h));
 }
 
 }  // namespace pleat

@@ -10,21 +10,19 @@
 
 namespace pleat {
 
-/// How a spring pulls.
+/// How a spring pulls. Its damper is no part of that: see DamperProgram.
 enum class SpringLaw {
-  rigid,             ///< keeps its rest length whatever the force
-  rigid_threads,     ///< rigid, but diagonals of quads are corrected in part at a time
-  elastic,           ///< stiffness only
-  damped,            ///< stiffness, and damping along the spring
-  damped_isotropic,  ///< stiffness, and damping of every relative velocity
+  rigid,          ///< keeps its rest length whatever the force
+  rigid_threads,  ///< rigid, but diagonals of quads are corrected in part at a time
+  elastic,        ///< pulls by its stiffness
 };
 
 constexpr bool is_rigid(SpringLaw law) {
   return law == SpringLaw::rigid || law == SpringLaw::rigid_threads;
 }
 
-/// The law of a model's springs.
-SpringLaw spring_law(const ClothModel& model, Constraints constraints);
+/// The law of springs as such constraints.
+SpringLaw spring_law(Constraints constraints);
 
 /// Calls work(constant) with the law as a compile-time constant: `rigid` for all that are, which
 /// differ in the numbers of a SpringBlock alone.
@@ -33,10 +31,6 @@ auto with_law(SpringLaw law, Work&& work) {
   switch (law) {
     case SpringLaw::elastic:
       return work(std::integral_constant<SpringLaw, SpringLaw::elastic>());
-    case SpringLaw::damped:
-      return work(std::integral_constant<SpringLaw, SpringLaw::damped>());
-    case SpringLaw::damped_isotropic:
-      return work(std::integral_constant<SpringLaw, SpringLaw::damped_isotropic>());
     case SpringLaw::rigid:
     case SpringLaw::rigid_threads:
       break;
@@ -45,8 +39,8 @@ auto with_law(SpringLaw law, Work&& work) {
 }
 
 /// The springs of a model that can pull at all, and those of them that join no hanging vertex.
-std::vector<int> active_springs(const ClothModel& model, SpringLaw law);
-std::vector<int> free_springs(const ClothModel& model, SpringLaw law);
+std::vector<int> active_springs(const ClothModel& model);
+std::vector<int> free_springs(const ClothModel& model);
 
 /// A bending element as one vector constraint, C = sum of weights times places.
 struct BendConstraint {
@@ -74,21 +68,12 @@ struct SpringBlock {
   PerLane<float> compliance{};      ///< mean mass / (stiffness h^2); 0 in empty lanes
   /// Compliance in denominators; infinite in empty lanes: nothing moves there.
   PerLane<float> denominator_share{kEmptyLane, kEmptyLane, kEmptyLane, kEmptyLane};
-  PerLane<float> damper_share{};  ///< share of c/h in the stiffness k + c/h
-  /// The compliance of the damper across the spring; infinite without.
-  PerLane<float> across_compliance{kEmptyLane, kEmptyLane, kEmptyLane, kEmptyLane};
   bool operator==(const SpringBlock&) const = default;
 
   /// h          substep [s]
   /// mean_mass  of the model's vertices [kg]
   void set_lane(std::size_t lane, const Spring& spring, SpringLaw law, double h, double mean_mass);
 };
-
-/// Floats kept per four springs: a group of multipliers, and x, y, z of those across with the
-/// isotropic damper.
-constexpr int multiplier_floats(SpringLaw law) {
-  return law == SpringLaw::damped_isotropic ? 4 * Float4::kLanes : Float4::kLanes;
-}
 
 // With d = x_a - x_b at the end of the substep and d_begin at its start, the pull acts along their
 // mean, of which g = d + d_begin is twice: all of it along d damps, less than half along d is not
@@ -103,7 +88,7 @@ template <class Lanes>
 struct Linearised {
   Vec3Lanes<Lanes> d, g;
   Lanes aim, slope;
-  Lanes length;  // elastic laws only
+  Lanes length;  // elastic law only
 };
 
 template <class Lanes, SpringLaw law, bool first>
@@ -121,22 +106,12 @@ Linearised<Lanes> linearise(const Vec3Lanes<Lanes>& d_begin, const Vec3Lanes<Lan
     const Lanes tiny = Lanes::all(kTinySquare);
     spring.length = sqrt(max(square, tiny));
     Lanes error = rest - spring.length;
-    if constexpr (law != SpringLaw::elastic) {
-      const Lanes length_begin = sqrt(dot(d_begin, d_begin));
-      error = error + Lanes::load(block.damper_share.data() + lane) * (length_begin - rest);
-    }
     if constexpr (!first)
       error = error - Lanes::load(block.compliance.data() + lane) * Lanes::load(multiplier);
     spring.aim = error * spring.length;
     spring.slope = max(dot(spring.d, spring.g), max(square, tiny));
   }
   return spring;
-}
-
-/// The part of a relative motion that is across a spring.
-template <class Lanes>
-Vec3Lanes<Lanes> across(const Vec3Lanes<Lanes>& motion, const Vec3Lanes<Lanes>& d) {
-  return motion - (dot(d, motion) / max(dot(d, d), Lanes::all(kTinySquare))) * d;
 }
 
 /// How far projecting a spring moves x_a, per inverse mass; x_b moves the other way. Adds to the
@@ -152,26 +127,9 @@ Vec3Lanes<Lanes> pull_of(const Vec3Lanes<Lanes>& d_begin, const Vec3Lanes<Lanes>
   const Lanes f =
       relaxation *
       (spring.aim / (spring.slope * (w + Lanes::load(block.denominator_share.data() + lane))));
-  Vec3Lanes<Lanes> pull = f * spring.g;
   if constexpr (law != SpringLaw::rigid)
     add_to_multiplier<first>(f * spring.slope / spring.length, multiplier);
-  if constexpr (law == SpringLaw::damped_isotropic) {
-    // Across the spring C = t, the motion across, linear, with compliance 1/(c h).
-    const Lanes gain = Lanes::all(1.0f) / (w + Lanes::load(block.across_compliance.data() + lane));
-    Vec3Lanes<Lanes> change = (Lanes::all(0.0f) - gain) * across(change_of_d, spring.d);
-    if constexpr (!first) {
-      // gain * compliance = 1 - gain w, without infinity times zero in empty lanes
-      const Vec3Lanes<Lanes> last{Lanes::load(multiplier + 4), Lanes::load(multiplier + 8),
-                                  Lanes::load(multiplier + 12)};
-      change = change - (Lanes::all(1.0f) - gain * w) * last;
-    }
-    change = relaxation * change;
-    add_to_multiplier<first>(change.x, multiplier + 4);
-    add_to_multiplier<first>(change.y, multiplier + 8);
-    add_to_multiplier<first>(change.z, multiplier + 12);
-    pull = pull + change;
-  }
-  return pull;
+  return f * spring.g;
 }
 
 /// (C + compliance/h^2 lambda)^2 [m^2], 0 in empty lanes.
@@ -187,17 +145,8 @@ Lanes squared_error(const Vec3Lanes<Lanes>& d_begin, const Vec3Lanes<Lanes>& cha
   } else {
     error = spring.aim / spring.length;
   }
-  Lanes square = error * error;
-  if constexpr (law == SpringLaw::damped_isotropic) {
-    const Lanes compliance = Lanes::load(block.across_compliance.data() + lane);
-    Vec3Lanes<Lanes> motion = across(change_of_d, spring.d);
-    motion = motion + where_positive(Lanes::all(kLargest) - compliance, compliance) *
-                          Vec3Lanes<Lanes>{Lanes::load(multiplier + 4), Lanes::load(multiplier + 8),
-                                           Lanes::load(multiplier + 12)};
-    square = square + where_positive(Lanes::all(kLargest) - compliance, dot(motion, motion));
-  }
   const Lanes occupied = Lanes::all(kLargest) - Lanes::load(block.denominator_share.data() + lane);
-  return where_positive(occupied, square);
+  return where_positive(occupied, error * error);
 }
 
 }  // namespace pleat

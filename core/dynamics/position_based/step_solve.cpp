@@ -29,7 +29,7 @@ StepSolve::StepSolve(const ClothModel& model, const MethodOptions& options,
       origin_((step.begins.rowwise().minCoeff() + step.begins.rowwise().maxCoeff()) / 2) {
   PLEAT_CHECK(options.stepper->make_projections != nullptr, "a position-based stepper");
   projections_ = options.stepper->make_projections(model, options, layout_,
-                                                   spring_law(model, options.constraints), step.h);
+                                                   spring_law(options.constraints), step.h);
   const double mean_mass = model.masses.mean();
   for (int i = 0; i < model.n_vertices(); ++i) {
     const int slot = layout_.places[static_cast<std::size_t>(i)].slot;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/simd.h"
 #include "core/model/hanging_vertices.h"
@@ -23,14 +24,21 @@ StepperPositionBased::StepperPositionBased(ClothModel& model, const MethodOption
                                            MakeProjections make_projections)
     : Stepper(model, options, options.substeps),
       layout_(lane_layout(model)),
-      projections_(make_projections(model, options, layout_, spring_law(model, options.constraints),
+      projections_(make_projections(model, options, layout_, spring_law(options.constraints),
                                     step_of(options))),
       mean_mass_(model.masses.mean()),
       pitch_(layout_.pitch()),
-      data_(pitch_ * (carries() ? kArrays : gained), 0.0f) {
+      data_(pitch_ * (carries() ? kArrays : gained), 0.0f),
+      n_constraints_(active_springs(model).size() +
+                     bend_constraints(model, step_of(options)).size()) {
   const double h = step_of(options);
   for (int k = 0; k < 3; ++k)
     fall_[static_cast<std::size_t>(k)] = static_cast<float>(model.gravity[k] * h * h);
+  // A rigid spring has no damper: it lets nothing move along it.
+  if (!is_rigid(spring_law(options.constraints))) {
+    dampers_.emplace(model, layout_, h);
+    if (dampers_->empty()) dampers_.reset();
+  }
   if (model.air) {
     forces_.resize(3, model.n_vertices());
     air_.resize(kAirArrays * pitch_);
@@ -56,6 +64,18 @@ void StepperPositionBased::refresh() {
   pin_velocities_.setZero(3, static_cast<Eigen::Index>(model_.pins.size()));
   projections_->refresh_pins(model_, inverse_masses);
   refresh_rest_lengths();
+}
+
+// A constraint is at least worth what gravity moves its vertices by in a substep, and what single
+// precision rounds of its length.
+void StepperPositionBased::refresh_rest_lengths() {
+  constexpr double kRounding = 4 * std::numeric_limits<float>::epsilon();
+  projections_->refresh_rest_lengths(model_);
+  double lengths = 0;
+  for (const Spring& spring : model_.springs) lengths += spring.rest_length * spring.rest_length;
+  const double h = step_of(options());
+  residual_floor_ = model_.gravity.norm() * h * h * std::sqrt(static_cast<double>(n_constraints_)) +
+                    kRounding * std::sqrt(lengths);
 }
 
 LaneView StepperPositionBased::view() {
@@ -262,6 +282,12 @@ void StepperPositionBased::copy_to(State& state, double h) {
   place_between_parents(model_.hanging, state);
 }
 
+// After contact, which reads from what is rounded off where a vertex was.
+void StepperPositionBased::brake() {
+  const PartScope scope(observer_, Part::solve);
+  dampers_->brake(view(), lanes(rounded_off));
+}
+
 SolveReport StepperPositionBased::substep(State& state, double time_end, double h) {
   if (model_.air) {
     const int every = std::max(1, static_cast<int>(std::lround(kDragPeriod / h)));
@@ -287,6 +313,7 @@ SolveReport StepperPositionBased::substep(State& state, double time_end, double 
   } else if (model_.contact) {
     resolve_contacts(h);
   }
+  if (dampers_) brake();
   --substeps_left_;
   time_end_ = time_end;
   SolveReport report;
@@ -294,6 +321,8 @@ SolveReport StepperPositionBased::substep(State& state, double time_end, double 
   return report;
 }
 
+/// The residual is relative to that of the predicted places, but where these are right already, as
+/// of cloth that falls, slides or lies, to what weight could make of it.
 void StepperPositionBased::store(State& state, SolveReport& report) {
   const PartScope scope(observer_, Part::convert);
   copy_to(state, step_of(options()));
@@ -303,7 +332,8 @@ void StepperPositionBased::store(State& state, SolveReport& report) {
         pin_velocities_.col(static_cast<Eigen::Index>(p));
   }
   place_between_parents(model_.hanging, state);
-  report.relative_residual = residual_begin_ > 0 ? residual_end_ / residual_begin_ : 0;
+  const double scale = std::max(residual_begin_, residual_floor_);
+  report.relative_residual = scale > 0 ? residual_end_ / scale : 0;
 }
 
 }  // namespace pleat

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/dynamics/position_based/lanes/contact_program.h"
+#include "core/dynamics/position_based/lanes/damper_program.h"
 #include "core/dynamics/position_based/lanes/lane_projections.h"
 #include "core/dynamics/position_based/spring_law.h"
 #include "core/dynamics/stepper.h"
@@ -15,7 +16,7 @@
 namespace pleat {
 
 /// Steps of position-based dynamics: per substep the vertices move freely, then constraints are
-/// projected, and what the projections moved changes the velocities. Inside,
+/// projected, what the projections moved changes the velocities, and dampers brake these. Inside,
 /// single precision about a local origin, four constraints at a time; positions carry what single
 /// precision rounds off, and velocities are summed from corrections, so that slow motion is not
 /// lost and gravity is not rounded however small the substep. Hanging vertices have no motion of
@@ -28,7 +29,7 @@ class StepperPositionBased final : public Stepper {
                        MakeProjections make_projections = lane_projections);
 
   void refresh() override;
-  void refresh_rest_lengths() override { projections_->refresh_rest_lengths(model_); }
+  void refresh_rest_lengths() override;
   std::string remark() const override { return projections_->remark(); }
 
  protected:
@@ -81,10 +82,12 @@ class StepperPositionBased final : public Stepper {
   void find_air_drag(State& state, double h);
   void add_air_drag();
   void resolve_contacts(double h);
+  void brake();
   void limit_in_double(State& state, double time_end, double h);
 
   LaneLayout layout_;
   std::unique_ptr<Projections> projections_;
+  std::optional<DamperProgram> dampers_;   // compliant springs with dampers only
   std::optional<ContactProgram> contact_;  // models with solids only
   std::vector<VertexId> vertices_;         // one for each slot, with solids
   double mean_mass_;                       // [kg]
@@ -95,6 +98,8 @@ class StepperPositionBased final : public Stepper {
   std::array<float, 3> fall_{};            // gravity h^2 [m]
   int substeps_left_ = 0;
   double residual_begin_ = 0, residual_end_ = 0;  // the last substep's [m]
+  std::size_t n_constraints_;                     // constraints of the finest mesh
+  double residual_floor_ = 0;                     // see store() [m]
   Positions pin_velocities_;                      // one column per pin [m/s]
   double time_end_ = 0;                           // end of the last substep [s]
   Positions forces_;                              // the air's [N]

@@ -77,21 +77,13 @@ void clear_fabric(Json& scene) {
     scene["fabric"]["bending"] = old["bending"];
 }
 
-/// Leaves out what the new stepper does not read or does not take, so that it starts from its own.
+/// Leaves out what was chosen for another stepper, so that the new one starts from its own.
 void clear_method(Json& scene, const Json& stepper, StepperTable steppers) {
   Json& method = scene.emplace("method", Json::object()).first.value();
-  if (!method.is_object() || !stepper.is_string() ||
+  if (!method.is_object() ||
       method.value("stepper", Json(MethodOptions{}.stepper->name)) == stepper)
     return;
-  const StepperType* type = find_stepper(steppers, stepper.get<std::string>());
-  if (type == nullptr) return;
-  for (const MethodSetting* setting : all_settings(steppers))
-    if (!type->reads(setting->key)) method.erase(setting->key);
-  if (type->has_stability_bound || method.value("substeps", Json()).is_string())
-    method.erase("substeps");
-  if ((type->needs_factor || type->prefers_factor) && method.value("solver", Json()) == "cg")
-    method.erase("solver");
-  if (type->largest_tolerance < 1) method.erase("tolerance");  // chosen for another stepper
+  for (const MethodSetting* setting : all_settings(steppers)) method.erase(setting->key);
 }
 
 /// Overrides of lower rank are set first.

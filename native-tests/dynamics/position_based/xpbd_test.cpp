@@ -368,8 +368,7 @@ TEST_CASE("xpbd: nothing is allocated after the first step", "[dynamics]") {
 
 TEST_CASE("xpbd: four lanes together give what they give one by one, to the bit", "[dynamics]") {
   const int n = GENERATE(2, 4, 9, 14);
-  const SpringLaw law = GENERATE(SpringLaw::rigid, SpringLaw::elastic, SpringLaw::damped,
-                                 SpringLaw::damped_isotropic);
+  const SpringLaw law = GENERATE(SpringLaw::rigid, SpringLaw::elastic);
   const bool shuffled = GENERATE(false, true);
   CAPTURE(n, static_cast<int>(law), shuffled);
   Random random(7);
@@ -377,7 +376,6 @@ TEST_CASE("xpbd: four lanes together give what they give one by one, to the bit"
   if (shuffled) shuffle(numbers, random);
   System system = sheet(n, {0, 0, 1}, numbers);
   if (!shuffled) add_bends(system, n, 1e-6);
-  for (Spring& spring : system.model.springs) spring.damping = random.uniform(0, 0.1);
   const LaneLayout layout = lane_layout(system.model);
   std::vector<float> ends[2];
   for (std::vector<float>& end : ends) {

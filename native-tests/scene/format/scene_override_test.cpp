@@ -4,6 +4,7 @@
 
 #include "core/base/check.h"
 #include "core/dynamics/stepper_table.h"
+#include "core/scene/format/method_section.h"
 #include "core/scene/format/scene_file.h"
 #include "native-tests/support/assets.h"
 
@@ -41,20 +42,33 @@ TEST_CASE("scene override: sections come before their parts, whatever the order"
         R"({"method":{"stepper":"explicit","substeps":7}})");
 }
 
-TEST_CASE("scene override: another stepper leaves out what it cannot take", "[scene]") {
+TEST_CASE("scene override: another stepper starts from its own settings, in the scene's steps",
+          "[scene]") {
+  const std::string scene = R"({"method": {"step_s": 0.01, "stepper": "implicit", "substeps": 4,
+                                           "solver": "cg", "tolerance": 0.01}})";
+  CHECK(overridden(scene, R"({"/method/stepper": "xpbd"})") ==
+        R"({"method":{"step_s":0.01,"stepper":"xpbd"}})");
+  CHECK(overridden(scene, R"({"/method/substeps": 60, "/method/stepper": "xpbd"})") ==
+        R"({"method":{"step_s":0.01,"stepper":"xpbd","substeps":60}})");
   const std::string stable = R"({"method": {"stepper": "explicit", "substeps": "stable"}})";
-  CHECK(overridden(stable, R"({"/method/stepper": "xpbd"})") == R"({"method":{"stepper":"xpbd"}})");
   CHECK(overridden(stable, R"({"/method/stepper": "explicit"})") ==
         R"({"method":{"stepper":"explicit","substeps":"stable"}})");
-  const std::string cg = R"({"method": {"solver": "cg", "substeps": 3}})";
-  CHECK(overridden(cg, R"({"/method/stepper": "projective"})") ==
-        R"({"method":{"substeps":3,"stepper":"projective"}})");
-  CHECK(overridden(cg, R"({"/method/stepper": "explicit"})") ==
-        R"({"method":{"stepper":"explicit"}})");
-  CHECK(overridden(cg, R"({"/method/stepper": "rk4"})") == R"({"method":{"stepper":"rk4"}})");
-  const std::string loose = R"({"method": {"solver": "cg", "tolerance": 0.01}})";
-  CHECK(overridden(loose, R"({"/method/stepper": "newton"})") ==
-        R"({"method":{"stepper":"newton"}})");
+  // implicit, which a scene that names none has.
+  const std::string unnamed = R"({"method": {"substeps": 3}})";
+  CHECK(overridden(unnamed, R"({"/method/stepper": "implicit"})") ==
+        R"({"method":{"substeps":3,"stepper":"implicit"}})");
+  CHECK(overridden(unnamed, R"({"/method/stepper": "rk4"})") == R"({"method":{"stepper":"rk4"}})");
+  for (const StepperType* type : standard_steppers()) {
+    CAPTURE(type->name);
+    if (type == MethodOptions{}.stepper) continue;
+    const std::string changed =
+        overridden(scene, R"({"/method/stepper": ")" + std::string(type->name) + "\"}");
+    const Json read = parse_json(changed);
+    MethodOptions usual = type->usual_method();
+    usual.step = 0.01;
+    CHECK(json_method(read_method(JsonReader(read).at("method"), standard_steppers())) ==
+          json_method(usual));
+  }
 }
 
 TEST_CASE("scene override: another fabric leaves out the scene's own numbers", "[scene]") {

@@ -5,42 +5,6 @@
 namespace pleat {
 namespace {
 
-SlotSum sum_in_slots(const Combination& sum, const LaneLayout& layout) {
-  SlotSum in_slots;
-  for (std::size_t t = 0; t < sum.n_terms; ++t) {
-    in_slots.slots[t] = layout.places[static_cast<std::size_t>(sum.terms[t].vertex)].slot;
-    in_slots.factors[t] = static_cast<float>(sum.terms[t].factor);
-  }
-  in_slots.n_terms = sum.n_terms;
-  return in_slots;
-}
-
-/// The sum, in differences from the first place: those of numbers near each other are not rounded.
-template <class Pointer>
-Vec3Lanes<Float1> value(const SlotSum& sum, const std::array<Pointer, 3>& arrays) {
-  const Vec3Lanes<Float1> first = load<Float1>(arrays, sum.slots[0]);
-  Vec3Lanes<Float1> total{{0}, {0}, {0}};
-  for (std::size_t t = 1; t < sum.n_terms; ++t)
-    total = total + Float1{sum.factors[t]} * (load<Float1>(arrays, sum.slots[t]) - first);
-  return total;
-}
-
-/// How far the sum moves per pull.
-Float1 inverse_mass_of(const SlotSum& sum, const LaneView& view) {
-  float total = 0;
-  for (std::size_t t = 0; t < sum.n_terms; ++t)
-    total += sum.factors[t] * sum.factors[t] * view.inverse_masses[sum.slots[t]];
-  return {total};
-}
-
-void move_by(const SlotSum& sum, const Vec3Lanes<Float1>& pull, const LaneView& view) {
-  for (std::size_t t = 0; t < sum.n_terms; ++t) {
-    const int slot = sum.slots[t];
-    const Float1 share{sum.factors[t] * view.inverse_masses[slot]};
-    store(load<Float1>(view.moves, slot) + share * pull, view.moves, slot);
-  }
-}
-
 Vec3Lanes<Float1> bend_error(const SlotSum& sum, const LaneView& view) {
   return value(sum, view.begins) + value(sum, view.moves);
 }
@@ -59,7 +23,7 @@ HangingProgram::HangingProgram(const ClothModel& model, const LaneLayout& layout
   if (model.hanging.empty()) return;
   constexpr std::array<double, 2> kDifference = {1, -1};
   const FreeCombinations in_free_vertices(model.n_vertices(), model.hanging);
-  for (const int s : active_springs(model, law)) {
+  for (const int s : active_springs(model)) {
     const Spring& spring = model.springs[static_cast<std::size_t>(s)];
     const std::array ends{spring.a, spring.b};
     if (any_hangs(model, ends))
@@ -69,7 +33,7 @@ HangingProgram::HangingProgram(const ClothModel& model, const LaneLayout& layout
     if (any_hangs(model, bend.vertices))
       bends_.push_back(
           {sum_in_slots(in_free_vertices(bend.vertices, bend.weights), layout), bend.compliance});
-  spring_multipliers_.resize(springs_.size() * static_cast<std::size_t>(multiplier_floats(law)));
+  spring_multipliers_.resize(springs_.size());
   bend_multipliers_.resize(3 * bends_.size());
   refresh_rest_lengths(model);
 }
@@ -87,13 +51,13 @@ void HangingProgram::project_bends(const LaneView& view) {
     float* const multiplier = bend_multipliers_.data() + 3 * i;
     const Vec3Lanes<Float1> error =
         first ? bend_error(sum, view) : bend_error(sum, compliance, multiplier, view);
-    const Float1 gain =
-        Float1{-1} / (inverse_mass_of(sum, view) + Float1{compliance + kRigidCompliance});
+    const Float1 gain = Float1{-1} / (inverse_mass_of(sum, view.inverse_masses) +
+                                      Float1{compliance + kRigidCompliance});
     const Vec3Lanes<Float1> change = gain * error;
     add_to_multiplier<first>(change.x, multiplier);
     add_to_multiplier<first>(change.y, multiplier + 1);
     add_to_multiplier<first>(change.z, multiplier + 2);
-    move_by(sum, change, view);
+    move_by(sum, change, view.inverse_masses, view.moves);
   }
 }
 
@@ -104,9 +68,10 @@ void HangingProgram::project_springs(const LaneView& view) {
     const SlotSum& sum = spring.sum;
     move_by(sum,
             pull_of<Float1, law, first>(value(sum, view.begins), value(sum, view.moves),
-                                        inverse_mass_of(sum, view), spring.block, 0, multiplier),
-            view);
-    multiplier += multiplier_floats(law);
+                                        inverse_mass_of(sum, view.inverse_masses), spring.block, 0,
+                                        multiplier),
+            view.inverse_masses, view.moves);
+    ++multiplier;
   }
 }
 
@@ -140,7 +105,7 @@ double HangingProgram::squared_residual(const LaneView& view) const {
                                                            value(spring.sum, view.moves),
                                                            spring.block, 0, multiplier)
                    .value;
-      multiplier += multiplier_floats(law);
+      ++multiplier;
     }
   });
   return total;

@@ -1,20 +1,12 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "core/dynamics/position_based/lane_layout.h"
+#include "core/dynamics/position_based/lanes/slot_sum.h"
 #include "core/dynamics/position_based/spring_law.h"
-#include "core/model/hanging_vertices.h"
 
 namespace pleat {
-
-/// Factors times the places at slots. The factors sum to zero.
-struct SlotSum {
-  std::array<int, 6> slots{};
-  std::array<float, 6> factors{};
-  std::size_t n_terms = 0;
-};
 
 /// The springs and bending elements of a model that join hanging vertices, as constraints on the
 /// vertices that do not hang: C(S y). Each sees what those before it did, and so do the hanging

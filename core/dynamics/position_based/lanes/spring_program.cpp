@@ -31,9 +31,8 @@ std::size_t hash_of(const Block& block) {
 SpringProgram::SpringProgram(const ClothModel& model, const LaneLayout& layout, SpringLaw law,
                              double h)
     : law_(law), h_(h), mean_mass_(model.masses.mean()) {
-  SpringOrder order = order_springs(model, layout, free_springs(model, law_));
-  // The damper across a spring is not part of a line's equations.
-  if (law_ != SpringLaw::damped_isotropic) lines_ = std::move(order.lines);
+  SpringOrder order = order_springs(model, layout, free_springs(model));
+  lines_ = std::move(order.lines);
   int n_in_lines = 0;
   int longest = 0;
   for (const SpringLine& line : lines_) {
@@ -47,7 +46,7 @@ SpringProgram::SpringProgram(const ClothModel& model, const LaneLayout& layout, 
     if (index >= n_in_lines) append_to_stretches(stretches_, index, operation.first_slots, 2);
   }
   line_scratch_.resize(static_cast<std::size_t>(longest * kLineChannels * kLanes));
-  multipliers_.resize(operations_.size() * static_cast<std::size_t>(multiplier_floats(law_)));
+  multipliers_.resize(operations_.size() * static_cast<std::size_t>(kLanes));
   blocks_.reserve(operations_.size());
   fill_blocks(model);
 }
@@ -187,7 +186,7 @@ void SpringProgram::project(const LaneView& view) {
     const int a = operations[index].a + lane;
     const int b = operations[index].b + lane;
     const Block& block = blocks[operations[index].block];
-    float* const multiplier = multipliers + multiplier_floats(law) * index + lane;
+    float* const multiplier = multipliers + kLanes * index + lane;
     const Vec3Lanes<Lanes> move_a = load<Lanes>(v.moves, a);
     const Vec3Lanes<Lanes> move_b = load<Lanes>(v.moves, b);
     const Vec3Lanes<Lanes> change_of_d = move_a - move_b;
@@ -203,9 +202,7 @@ void SpringProgram::project(const LaneView& view) {
 
 template <SpringLaw law, bool first>
 void SpringProgram::sweep(const LaneView& view) {
-  if constexpr (law != SpringLaw::damped_isotropic) {
-    for (const SpringLine& line : lines_) solve_line<law, first>(view, line);
-  }
+  for (const SpringLine& line : lines_) solve_line<law, first>(view, line);
   project<law, first>(view);
 }
 
@@ -226,7 +223,7 @@ double SpringProgram::squared_residual(const LaneView& v) const {
                                               load<Float4>(v.moves, a) - load<Float4>(v.moves, b),
                                               blocks_[static_cast<std::size_t>(index)], 0,
                                               multiplier);
-      multiplier += multiplier_floats(kLaw);
+      multiplier += kLanes;
     }
     return sum_of_lanes<double>(sum);
   });

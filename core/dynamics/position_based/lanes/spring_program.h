@@ -67,7 +67,7 @@ class SpringProgram {
   std::vector<Block> blocks_;                // equal ones are shared
   std::vector<SpringLine> lines_;            // made of the first operations
   std::vector<OperationStretch> stretches_;  // the other operations
-  std::vector<float> multipliers_;           // a group per operation; 4 with the isotropic damper
+  std::vector<float> multipliers_;           // a group per operation
   std::vector<float> line_scratch_;          // see solve_line
 };
 

@@ -126,7 +126,7 @@ class CycleProjections final : public Projections {
         smoothing_{relaxation(options.smoother_before, options.omega),
                    relaxation(options.smoother_after, options.omega)},
         vertices_(layout.n_slots),
-        n_constraints_(active_springs(model, law).size() + bend_constraints(model, h).size()),
+        n_constraints_(active_springs(model).size() + bend_constraints(model, h).size()),
         hierarchy_(hierarchy_of(model, options)),
         lines_remark_(lines_remark(options, layout)) {
     if (sweeps_lines(options, layout))

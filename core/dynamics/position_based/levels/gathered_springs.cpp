@@ -12,7 +12,7 @@ GatheredSprings::GatheredSprings(const ClothModel& model, const LaneLayout& layo
       h_(h),
       mean_mass_(model.masses.mean()),
       mean_(static_cast<std::size_t>(layout.n_slots)) {
-  const std::vector<int> springs = free_springs(model, law);
+  const std::vector<int> springs = free_springs(model);
   std::vector<PlacePair> ends;
   for (const int s : springs) {
     const Spring& spring = model.springs[static_cast<std::size_t>(s)];
@@ -33,7 +33,7 @@ GatheredSprings::GatheredSprings(const ClothModel& model, const LaneLayout& layo
       for (const int slot : {a, b}) mean_.count(slot);
     }
   }
-  multipliers_.resize(groups_.size() * static_cast<std::size_t>(multiplier_floats(law)));
+  multipliers_.resize(groups_.size() * Float4::kLanes);
 }
 
 void GatheredSprings::refresh_pins(const float* inverse_masses) {
@@ -70,7 +70,7 @@ void GatheredSprings::project(const float* begins, const float* moves, float* to
         in_lanes(d_begin), in_lanes(change), w_a + w_b, group.block, 0, multiplier, relaxation));
     scatter(gather<Float4>(to, group.a) + scaled(pull, w_a), to, group.a);
     scatter(gather<Float4>(to, group.b) - scaled(pull, w_b), to, group.b);
-    multiplier += multiplier_floats(law);
+    multiplier += Float4::kLanes;
   }
 }
 
@@ -102,12 +102,11 @@ void GatheredSprings::strains(const float* begins, const float* moves, float* st
     const Float4 rest = rigid ? sqrt(kept) : kept;
     Float4 error = sqrt(dots(d, d)) - rest;
     if (!rigid)
-      error = error + Float4::load(group.block.compliance.data()) * Float4::load(multiplier) -
-              Float4::load(group.block.damper_share.data()) * (sqrt(dots(d_begin, d_begin)) - rest);
+      error = error + Float4::load(group.block.compliance.data()) * Float4::load(multiplier);
     const Float4 occupied = largest - Float4::load(group.block.denominator_share.data());
     where_positive(occupied, error / max(rest, tiny)).store(strains);
     strains += 4;
-    multiplier += multiplier_floats(law_);
+    multiplier += Float4::kLanes;
   }
 }
 
@@ -136,7 +135,7 @@ double GatheredSprings::squared_residual(const float* begins, const float* moves
       const auto change = gather<Float4>(moves, group.a) - gather<Float4>(moves, group.b);
       sum = sum + squared_error<Float4, kLaw>(in_lanes(d_begin), in_lanes(change), group.block, 0,
                                               multiplier);
-      multiplier += multiplier_floats(kLaw);
+      multiplier += Float4::kLanes;
     }
     return sum_of_lanes<double>(sum);
   });

@@ -9,6 +9,7 @@ export const SIGN_TITLES: Record<Sign, string> = {
   speed: 'faster than anything explains',
   unsolved: 'equations left unsolved',
   not_converged: 'did not converge',
+  given_up: 'a solver gave up',
   ended: 'numbers without end',
 };
 

@@ -20,5 +20,7 @@ export function warningSentence({ kind, time_s, value, bound }: RunWarning): str
       return `This is not how cloth moves. ${since} steps leave ${percent(value)} of their equations unsolved.`;
     case 'not_converged':
       return `${since} steps did not converge, and left ${percent(value)} of their equations unsolved.`;
+    case 'given_up':
+      return `${since} a factor solved steps that the solver gave up.`;
   }
 }
