@@ -39,8 +39,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "pleat: %s\n", pleat::printable(error.what()).c_str());
     return pleat::kExitCheckFailed;
   } catch (const pleat::InputError& error) {
-    const std::string place = error.where().empty() ? "" : error.where() + ": ";
-    std::fprintf(stderr, "pleat: %s\n", pleat::printable(place + error.what()).c_str());
+    std::fprintf(stderr, "pleat: %s\n", pleat::printable(error.what()).c_str());
     return pleat::kExitBadInput;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "pleat: this is a fault of the program: %s\n", error.what());

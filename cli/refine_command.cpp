@@ -26,7 +26,7 @@ struct RefineInput : SceneInput {
 
   [[noreturn]] void throw_named(const InputError& error) const {
     for (const auto& [name, option] : kOptions)
-      if (error.where() == name) throw InputError(option, error.what());
+      if (error.where() == name) throw InputError(option, error.sentence());
     const auto* of_example = dynamic_cast<const ExampleError*>(&error);
     examples[of_example != nullptr ? of_example->example() : 0].throw_named(error);
   }

@@ -14,11 +14,11 @@ void Source::throw_named(const InputError& error) const {
   for (const auto& [pointer, option] : options) {
     // The numbers of a fabric come with its name.
     const bool is_there = where == pointer || where + "/name" == pointer;
-    if (is_there || where.rfind(pointer + "/", 0) == 0) throw InputError(option, error.what());
+    if (is_there || where.rfind(pointer + "/", 0) == 0) throw InputError(option, error.sentence());
   }
-  if (where.empty()) throw InputError(file, error.what());
+  if (where.empty()) throw InputError(file, error.sentence());
   const bool is_named = where.rfind(file, 0) == 0 || where.rfind("--", 0) == 0;
-  throw InputError(is_named ? where : file + ": " + where, error.what());
+  throw InputError(is_named ? where : file + ": " + where, error.sentence());
 }
 
 ObjMesh read_mesh(const std::string& file) {

@@ -129,10 +129,11 @@ std::vector<std::filesystem::path> SweepInput::files_read() const {
 
 void SweepInput::throw_named(const InputError& error) const {
   const std::string& where = error.where();
-  if (scene && (where == "/grid" || where == "/settings")) throw InputError("--set", error.what());
+  if (scene && (where == "/grid" || where == "/settings"))
+    throw InputError("--set", error.sentence());
   const bool in_scene = where == "/scene" || where.rfind("/scene/", 0) == 0;
   if (!in_scene || (!scene && scene_file.empty())) Source::throw_named(error);
-  Source{scene ? file : scene_file, options}.throw_named({where.substr(6), error.what()});
+  Source{scene ? file : scene_file, options}.throw_named({where.substr(6), error.sentence()});
 }
 
 std::string SweepInput::need() const {

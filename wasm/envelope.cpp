@@ -35,7 +35,7 @@ std::string guarded(const std::function<void(val& envelope)>& work) {
     work(envelope);
     return json_text(envelope);
   } catch (const InputError& error) {
-    return failure("input", error.where(), error.what());
+    return failure("input", error.where(), error.sentence());
   } catch (const std::exception& error) {
     return failure("internal", "", error.what());
   }

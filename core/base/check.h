@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace pleat {
 
@@ -14,15 +15,19 @@ class ContractError : public std::logic_error {
 };
 
 /// Bad input from outside. `where` is a JSON pointer, a file with line, an option's name, or empty
-/// for the input as a whole; what() one sentence: what was expected and what was found.
+/// for the input as a whole; `sentence` says what was expected and what was found; what() both,
+/// "/cloth/rows: expected at least 1, got 0".
 class InputError : public std::runtime_error {
  public:
-  InputError(std::string where, const std::string& sentence)
-      : std::runtime_error(sentence), where_(std::move(where)) {}
+  InputError(std::string where, std::string sentence)
+      : std::runtime_error(where.empty() ? sentence : where + ": " + sentence),
+        where_(std::move(where)),
+        sentence_(std::move(sentence)) {}
   const std::string& where() const { return where_; }
+  const std::string& sentence() const { return sentence_; }
 
  private:
-  std::string where_;
+  std::string where_, sentence_;
 };
 
 [[noreturn]] void throw_contract_error(const char* condition, const char* file, int line,

@@ -27,7 +27,7 @@ auto read_named_file(const JsonReader& reader, const FileSource& files, Read&& r
   try {
     return read(text);
   } catch (const InputError& error) {
-    throw InputError(place_in(name, error.where()), error.what());
+    throw InputError(place_in(name, error.where()), error.sentence());
   }
 }
 

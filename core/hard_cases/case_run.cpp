@@ -200,7 +200,7 @@ std::string excuse_for_stop(const HardCase& hard_case, const std::string& steppe
 
 void refuse(const InputError& error, std::string excuse, CaseOutcome& outcome) {
   outcome.status = CaseStatus::refused;
-  outcome.sentence = labelled(error.what(), error.where());
+  outcome.sentence = labelled(error.sentence(), error.where());
   outcome.excuse = std::move(excuse);
 }
 

@@ -30,7 +30,7 @@ struct PlanCost {
 class ExampleError : public InputError {
  public:
   ExampleError(std::size_t example, const InputError& cause)
-      : InputError(cause.where(), cause.what()), example_(example) {}
+      : InputError(cause.where(), cause.sentence()), example_(example) {}
   std::size_t example() const { return example_; }
 
  private:

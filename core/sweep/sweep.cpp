@@ -120,7 +120,7 @@ void Sweep::make_reference(std::size_t index, double budget) {
     if (maker_ == nullptr) maker_ = make_reference_maker(recipe, times_, coarser);
     maker_->advance(budget);
   } catch (const InputError& error) {
-    throw InputError("/scene" + error.where(), error.what());
+    throw InputError("/scene" + error.where(), error.sentence());
   }
   seconds_at_hand_ += watch.elapsed();
   if (!maker_->done()) return;
@@ -213,7 +213,7 @@ std::optional<BenchRow> Sweep::begin_run() {
     if (!in_first_round()) throw;
     BenchRow row = new_row(scene);
     row.status = "refused";
-    row.message = error.where() + ": " + error.what();
+    row.message = error.what();
     return row;
   }
 }

@@ -49,7 +49,7 @@ bool overlap(const std::string& a, const std::string& b) {
         (nearest == nullptr || planned.change.pointer.size() > nearest->change.pointer.size()))
       nearest = &planned;
   if (nearest == nullptr) nearest = &changes.back();
-  throw InputError(nearest->where, "in the scene, " + error.where() + ": " + error.what());
+  throw InputError(nearest->where, std::string("in the scene, ") + error.what());
 }
 
 /// The one list of changes that a member of the plan's "settings" is.
@@ -142,7 +142,7 @@ SweepSetting make_setting(const SweepPlan& plan, const PlannedChanges& planned) 
     setting.family = family_of(json);
     setting.n_vertices = static_cast<double>(scene.cloth->n_vertices(scene.level));
   } catch (const InputError& error) {
-    if (planned.empty()) throw InputError("/scene" + error.where(), error.what());
+    if (planned.empty()) throw InputError("/scene" + error.where(), error.sentence());
     throw_at_change(error, planned);
   }
   return setting;
@@ -158,7 +158,7 @@ void read_plan_scene(const JsonReader& reader, SweepPlan& plan) {
     plan.duration = scene.duration;
   } catch (const InputError& error) {
     const bool is_plans_own = duration && error.where() == kDuration;
-    throw InputError((is_plans_own ? "" : "/scene") + error.where(), error.what());
+    throw InputError((is_plans_own ? "" : "/scene") + error.where(), error.sentence());
   }
 }
 

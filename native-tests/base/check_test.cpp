@@ -25,7 +25,9 @@ TEST_CASE("check: a kept promise is silent", "[base]") {
 TEST_CASE("check: an input error carries its place beside its sentence", "[base]") {
   const InputError error("/cloth/rows", "expected at least 1, got 0");
   CHECK(error.where() == "/cloth/rows");
-  CHECK(std::string(error.what()) == "expected at least 1, got 0");
+  CHECK(error.sentence() == "expected at least 1, got 0");
+  CHECK(std::string(error.what()) == "/cloth/rows: expected at least 1, got 0");
+  CHECK(std::string(InputError("", "expected an object").what()) == "expected an object");
 }
 
 TEST_CASE("ids: an id made without an index is not valid", "[base]") {

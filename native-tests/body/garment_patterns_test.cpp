@@ -139,8 +139,8 @@ void check_refused(const std::function<Garment()>& cut, const std::string& where
     FAIL_CHECK("was accepted");
   } catch (const InputError& error) {
     CHECK(error.where() == where);
-    CAPTURE(error.what());
-    CHECK(std::string(error.what()).find(got) != std::string::npos);
+    CAPTURE(error.sentence());
+    CHECK(error.sentence().find(got) != std::string::npos);
   }
 }
 

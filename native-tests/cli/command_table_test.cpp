@@ -43,7 +43,7 @@ std::string refusal(CommandTable table, const Call& words) {
   try {
     dispatch(table, words);
   } catch (const InputError& error) {
-    return error.where() + ": " + error.what();
+    return error.where() + ": " + error.sentence();
   }
   return "taken";
 }

@@ -242,7 +242,7 @@ TEST_CASE("membrane: a fabric that shears harder than it stretches is refused by
     membrane_law(fabric);
     FAIL("nothing was thrown");
   } catch (const InputError& error) {
-    CHECK(std::string(error.what()).find("soft") != std::string::npos);
+    CHECK(error.sentence().find("soft") != std::string::npos);
     CHECK(error.where() == "/fabric");
   }
   for (const FabricConstants& measured : library_fabrics()) CHECK_NOTHROW(membrane_law(measured));

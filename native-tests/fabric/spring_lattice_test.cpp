@@ -142,7 +142,7 @@ TEST_CASE("spring_lattice: cells too long for a fabric's shear are refused by it
     spring_lattice(sheet_with_aspect(4, 4, refused), fabric);
     FAIL("nothing was thrown");
   } catch (const InputError& error) {
-    CHECK(std::string(error.what()).find(name) != std::string::npos);
+    CHECK(error.sentence().find(name) != std::string::npos);
     CHECK(error.where() == "/fabric");
   }
 }

@@ -68,7 +68,7 @@ void check_refused(const json& document, const BadFabric& bad) {
     FAIL_CHECK("was accepted");
   } catch (const InputError& error) {
     CHECK(error.where() == bad.where);
-    CHECK(std::string(error.what()) == bad.sentence);
+    CHECK(error.sentence() == bad.sentence);
   }
 }
 

@@ -28,7 +28,7 @@ TEST_CASE("json text: what is not JSON is quoted", "[files]") {
     try {
       parse_json(text);
     } catch (const InputError& error) {
-      return error.what();
+      return error.sentence();
     }
     return "none";
   };

@@ -50,7 +50,7 @@ void check_motion_refused(const json& document, const BadMotion& bad) {
     FAIL_CHECK("was accepted");
   } catch (const InputError& error) {
     CHECK(error.where() == bad.where);
-    CHECK(std::string(error.what()) == bad.sentence);
+    CHECK(error.sentence() == bad.sentence);
   }
 }
 

@@ -119,7 +119,7 @@ TEST_CASE("obj: a bad text is refused with its line, what was expected and what 
       FAIL_CHECK("was accepted");
     } catch (const InputError& error) {
       CHECK(error.where() == bad.where);
-      CHECK(std::string(error.what()) == bad.sentence);
+      CHECK(error.sentence() == bad.sentence);
     }
   }
 }
@@ -146,7 +146,7 @@ TEST_CASE("obj: one vertex more than a simulation takes is refused at its line",
     FAIL("was accepted");
   } catch (const InputError& error) {
     CHECK(error.where() == "line 1000001");
-    CHECK(std::string(error.what()) == "expected at most 1000000 vertices, got one more");
+    CHECK(error.sentence() == "expected at most 1000000 vertices, got one more");
   }
 }
 

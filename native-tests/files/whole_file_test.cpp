@@ -19,7 +19,7 @@ std::string complaint(const fs::path& path, Work&& work) {
     work(path);
   } catch (const FileError& error) {
     CHECK(error.where() == path.string());
-    return error.what();
+    return error.sentence();
   }
   return "none";
 }

@@ -404,11 +404,11 @@ TEST_CASE("bend_friction: steppers that do not take it refuse it", "[model]") {
         FAIL(stepper->name);
       } catch (const InputError& error) {
         CHECK(error.where() == "/method/stepper");
-        CHECK(std::string(error.what()) == std::string("expected implicit or newton for friction "
-                                                       "inside the fabric, whose moments they "
-                                                       "find with the end of a step as no other "
-                                                       "does, got ") +
-                                               stepper->name);
+        CHECK(error.sentence() == std::string("expected implicit or newton for friction "
+                                              "inside the fabric, whose moments they "
+                                              "find with the end of a step as no other "
+                                              "does, got ") +
+                                      stepper->name);
       }
     }
   }

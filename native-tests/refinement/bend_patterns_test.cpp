@@ -67,13 +67,13 @@ TEST_CASE("bend features: frames that do not fit are named", "[refinement]") {
   BendFeatureSum sum(mesh);
   CHECK_THROWS_AS(sum.features(), InputError);
   sum.add(mesh.rest_positions());
-  CHECK_THROWS_WITH(sum.features(), "expected at least 2, got 1");
+  CHECK_THROWS_WITH(sum.features(), "frames: expected at least 2, got 1");
   const auto where = [&](const Positions& frame) -> std::string {
     try {
       sum.add(frame);
       return "nowhere";
     } catch (const InputError& error) {
-      return error.where() + ": " + error.what();
+      return error.where() + ": " + error.sentence();
     }
   };
   CHECK(where(Positions::Zero(3, 15)) == "frame 1: expected 16 vertices as the mesh has, got 15");

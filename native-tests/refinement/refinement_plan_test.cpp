@@ -225,7 +225,7 @@ TEST_CASE("plan: values out of range are named", "[refinement]") {
       plan_of_patterns(3, patterns, options);
       return "none";
     } catch (const InputError& error) {
-      return error.where() + ": " + error.what();
+      return error.where() + ": " + error.sentence();
     }
   };
   PlanOptions options = by_curvature();

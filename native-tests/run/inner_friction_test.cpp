@@ -32,7 +32,7 @@ void check_refused(const Scene& scene, const std::string& where, const std::stri
     FAIL(where);
   } catch (const InputError& error) {
     CHECK(error.where() == where);
-    CHECK(std::string(error.what()) == sentence);
+    CHECK(error.sentence() == sentence);
   }
 }
 

@@ -142,7 +142,7 @@ TEST_CASE("tearing: what cannot tear says so in one sentence", "[scene]") {
     try {
       read(cloth, rest);
     } catch (const InputError& error) {
-      return error.where() + ": " + error.what();
+      return error.where() + ": " + error.sentence();
     }
     return "";
   };

@@ -33,7 +33,7 @@ std::size_t read_n_vertices(const std::string& path, std::string_view line) {
     return static_cast<std::size_t>(header.at("n_vertices").integer(0, 1000000000));
   } catch (const InputError& error) {
     throw InputError(path, "expected frames that this program wrote, got a header in which " +
-                               error.where() + ": " + error.what());
+                               error.where() + ": " + error.sentence());
   }
 }
 

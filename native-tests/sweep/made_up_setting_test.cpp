@@ -45,7 +45,7 @@ std::string refusal_of(const Json& method) {
     scene_of(method);
     return "";
   } catch (const InputError& error) {
-    return error.where() + ": " + error.what();
+    return error.where() + ": " + error.sentence();
   }
 }
 

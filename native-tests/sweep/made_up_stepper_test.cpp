@@ -74,7 +74,7 @@ TEST_CASE("stepper table: a scene that names what the table lacks is told what i
     FAIL("accepted");
   } catch (const InputError& error) {
     CHECK(error.where() == "/method/stepper");
-    CHECK(std::string(error.what()) ==
+    CHECK(error.sentence() ==
           "expected one of \"implicit\", \"imex\", \"projective\", \"xpbd\", \"pbd\", \"hpbd\", "
           "\"multigrid\", \"explicit\", \"rk4\", "
           "\"newton\", got \"made_up\"");
@@ -99,7 +99,7 @@ TEST_CASE("stepper table: settings that a stepper does not read are refused with
         FAIL("accepted");
       } catch (const InputError& error) {
         CHECK(error.where() == std::string("/method/") + key);
-        CHECK(has(error.what(), std::string(type->name) + " does not read it"));
+        CHECK(has(error.sentence(), std::string(type->name) + " does not read it"));
       }
     }
   }

@@ -531,10 +531,10 @@ TEST_CASE("sweep: a bad plan is refused at its place", "[sweep]") {
   };
   for (const Bad& bad : cases) {
     const InputError fault = fault_of(bad.plan);
-    CAPTURE(bad.plan.dump(), fault.what());
+    CAPTURE(bad.plan.dump(), fault.sentence());
     CHECK(fault.where() == bad.where);
   }
-  CHECK(std::string(fault_of(grid("/refinement/level", {0, 9})).what()) ==
+  CHECK(fault_of(grid("/refinement/level", {0, 9})).sentence() ==
         "in the scene, /refinement/level: expected a whole number from 0 to 8, got 9");
 }
 

@@ -51,7 +51,7 @@ Garment made(const JsonReader& reader, Make&& make) {
   try {
     return make();
   } catch (const InputError& error) {
-    throw InputError(reader.pointer() + error.where(), error.what());
+    throw InputError(reader.pointer() + error.where(), error.sentence());
   }
 }
 

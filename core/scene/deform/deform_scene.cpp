@@ -124,7 +124,7 @@ FittedWeights read_measures(const JsonReader& reader, const FabricLibrary& fabri
   try {
     return MeasureFit(fabrics.fabrics).fit(measures);
   } catch (const InputError& error) {
-    throw InputError(reader.pointer() + error.where(), error.what());
+    throw InputError(reader.pointer() + error.where(), error.sentence());
   }
 }
 
@@ -133,7 +133,7 @@ const Fabric& named_fabric(const JsonReader& reader, const FabricLibrary& fabric
   try {
     return fabrics.find(name);
   } catch (const InputError& error) {
-    throw InputError(reader.pointer(), error.what());
+    throw InputError(reader.pointer(), error.sentence());
   }
 }
 

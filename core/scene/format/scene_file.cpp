@@ -38,7 +38,7 @@ RefinementPlan read_scene_plan(const JsonReader& reader, const FileSource& files
     return checked(read_plan(reader));
   } catch (const InputError& error) {
     if (error.where().rfind(reader.pointer(), 0) == 0) throw;
-    throw InputError(reader.pointer() + error.where(), error.what());
+    throw InputError(reader.pointer() + error.where(), error.sentence());
   }
 }
 

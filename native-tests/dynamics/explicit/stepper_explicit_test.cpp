@@ -163,7 +163,7 @@ TEST_CASE("explicit: the refusal names the bound and a count of substeps that ru
     make_stepper(model, explicit_method(1.0 / 60, 2));
     FAIL("nothing was thrown");
   } catch (const InputError& error) {
-    const std::string text = error.what();
+    const std::string text = error.sentence();
     CAPTURE(text);
     CHECK(error.where() == "/method/substeps");
     CHECK(text.find("got 0.00833 s") != std::string::npos);

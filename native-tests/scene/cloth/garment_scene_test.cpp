@@ -28,7 +28,7 @@ std::string garment_refusal(const std::string& text) {
   try {
     read_scene(text, fabric_library(), file_beside_garments);
   } catch (const InputError& error) {
-    return error.where() + ": " + error.what();
+    return error.where() + ": " + error.sentence();
   }
   return "";
 }

@@ -239,7 +239,7 @@ TEST_CASE("mesh scene: faults of the file are told with its name and line", "[sc
     try {
       obj_scene(obj);
     } catch (const InputError& error) {
-      return error.where() + ": " + error.what();
+      return error.where() + ": " + error.sentence();
     }
     return std::string("was accepted");
   };

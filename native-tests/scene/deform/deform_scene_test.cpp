@@ -44,7 +44,7 @@ std::string error_of(Work&& work) {
   try {
     work();
   } catch (const InputError& error) {
-    return error.where() + ": " + error.what();
+    return error.where() + ": " + error.sentence();
   }
   return "no error";
 }

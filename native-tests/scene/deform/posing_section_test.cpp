@@ -42,7 +42,7 @@ std::string refusal(const std::string& text) {
   try {
     read_posing(JsonReader(json), files);
   } catch (const InputError& error) {
-    return error.where() + ": " + error.what();
+    return error.where() + ": " + error.sentence();
   }
   return "";
 }

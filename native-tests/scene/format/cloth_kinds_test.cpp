@@ -56,7 +56,7 @@ std::string refusal(const std::string& text, const SceneTables& tables) {
   try {
     read_scene(text, fabric_library(), {}, tables);
   } catch (const InputError& error) {
-    return error.where() + ": " + error.what();
+    return error.where() + ": " + error.sentence();
   }
   return "";
 }

@@ -476,7 +476,7 @@ TEST_CASE("scene file: bad input is refused with its place, what was expected an
       FAIL_CHECK("was accepted");
     } catch (const InputError& error) {
       CHECK(error.where() == bad.where);
-      CHECK(std::string(error.what()) == bad.sentence);
+      CHECK(error.sentence() == bad.sentence);
     }
   }
 }

@@ -28,7 +28,7 @@ bool is_scene(const std::string& text, const std::string& obj = kObj) {
     read_scene(text, fabric_library(), [&](const std::string&) { return obj; });
     return true;
   } catch (const InputError& error) {
-    CHECK(std::string(error.what()).substr(0, 9) == "expected ");
+    CHECK(error.sentence().substr(0, 9) == "expected ");
     return false;
   }
 }

@@ -43,7 +43,7 @@ std::string refusal(const std::string& start, int level = 0, const std::string& 
   try {
     Simulation simulation(read(start, level, file));
   } catch (const InputError& error) {
-    return error.where() + ": " + error.what();
+    return error.where() + ": " + error.sentence();
   }
   return "";
 }
