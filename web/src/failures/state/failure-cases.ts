@@ -8,7 +8,6 @@ import longStepText from '../../../../assets/hard_cases/long_step_stiff_cloth.js
 import needleCellsText from '../../../../assets/hard_cases/needle_cells.json?raw';
 import onePinnedCornerText from '../../../../assets/hard_cases/one_pinned_corner.json?raw';
 import restOnABallText from '../../../../assets/hard_cases/rest_on_a_ball.json?raw';
-import stiffnessRatioText from '../../../../assets/hard_cases/stiffness_ratio.json?raw';
 import tumblingText from '../../../../assets/hard_cases/tumbling.json?raw';
 import type { RunWarning } from '../../shared/bindings/run-warning';
 
@@ -181,18 +180,6 @@ export const CASES: readonly FailureCase[] = [
     ours: IMPLICIT,
     sign: 'unsolved',
     endS: 2,
-  },
-  {
-    id: 'stiffness_ratio',
-    title: 'A solver that gives up',
-    lesson:
-      'Warp is a million times as stiff as weft. Newton’s method is asked for more digits than rounding leaves in springs so stiff, and stops after 200 iterations without them. It says so: a picture that looks right may still not be what was asked for.',
-    remedy: 'One linear system a step, solved as far as a picture needs it.',
-    sceneText: stiffnessRatioText,
-    naive: { words: 'Newton, one substep', method: { stepper: 'newton' } },
-    ours: IMPLICIT,
-    sign: 'not_converged',
-    endS: 1,
   },
 ];
 
