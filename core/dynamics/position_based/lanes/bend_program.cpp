@@ -1,122 +1,366 @@
 #include "core/dynamics/position_based/lanes/bend_program.h"
 
+#include <map>
+
 namespace pleat {
 namespace {
 
-constexpr int kMultiplierFloats = 12;
+constexpr int kLanesOfSet = Float4::kLanes;
+constexpr int kMultiplierFloats = 3 * kLanesOfSet;
+/// Groups kept per place between elimination and substitution: moves, and multipliers as far as the
+/// places before say.
+constexpr int kSolveFloats = 6 * kLanesOfSet;
 
-std::vector<LaneCandidate> candidates_of(const ClothModel& model,
-                                         const std::vector<BendConstraint>& bends,
-                                         const LaneLayout& layout) {
-  std::vector<LaneCandidate> candidates;
-  for (std::size_t e = 0; e < bends.size(); ++e) {
-    const BendConstraint& bend = bends[e];
-    if (any_hangs(model, bend.vertices)) continue;
-    const auto place = [&](std::size_t k) {
-      return layout.places[static_cast<std::size_t>(bend.vertices[k])];
-    };
-    const LaneLayout::Place first = place(0);
-    const int lane = first.slot % Float4::kLanes;
-    const int column = first.column % layout.stride;
-    const int panel = first.row / kPanelRows;
-    candidates.push_back({{first.slot - lane, place(1).slot - lane, place(2).slot - lane},
-                          lane,
-                          static_cast<int>(e),
-                          first.row == place(2).row
-                              ? std::array<int, 5>{panel, 1, column, first.row, 0}
-                              : std::array<int, 5>{panel, 0, first.row, column, 0}});
+/// Where the vertices of four threads are, place by place.
+template <class Lanes, bool in_groups>
+struct ThreadSlots {
+  const int* slots;
+  int lane;
+
+  Lanes load(const float* array, int place) const {
+    if constexpr (in_groups) {
+      return Lanes::load(array + slots[place] + lane);
+    } else if constexpr (Lanes::kLanes == 1) {
+      return {array[slots[kLanesOfSet * place + lane]]};
+    } else {
+      const int* const at = slots + kLanesOfSet * place;
+      return Lanes::gather(array, {at[0], at[1], at[2], at[3]});
+    }
   }
-  return candidates;
+  void store(Lanes value, float* array, int place) const {
+    if constexpr (in_groups) {
+      value.store(array + slots[place] + lane);
+    } else if constexpr (Lanes::kLanes == 1) {
+      array[slots[kLanesOfSet * place + lane]] = value.value;
+    } else {
+      const int* const at = slots + kLanesOfSet * place;
+      value.scatter(array, {at[0], at[1], at[2], at[3]});
+    }
+  }
+  template <class Pointer>
+  Vec3Lanes<Lanes> load(const std::array<Pointer, 3>& arrays, int place) const {
+    return {load(arrays[0], place), load(arrays[1], place), load(arrays[2], place)};
+  }
+  void store(const Vec3Lanes<Lanes>& value, const std::array<float*, 3>& arrays, int place) const {
+    store(value.x, arrays[0], place);
+    store(value.y, arrays[1], place);
+    store(value.z, arrays[2], place);
+  }
+};
+
+template <class Lanes>
+Vec3Lanes<Lanes> three_at(const float* from) {
+  return {Lanes::load(from), Lanes::load(from + kLanesOfSet), Lanes::load(from + 2 * kLanesOfSet)};
+}
+template <class Lanes>
+void store_three(const Vec3Lanes<Lanes>& value, float* to) {
+  value.x.store(to);
+  value.y.store(to + kLanesOfSet);
+  value.z.store(to + 2 * kLanesOfSet);
+}
+template <bool first, class Lanes>
+void add_three(const Vec3Lanes<Lanes>& change, float* multipliers) {
+  add_to_multiplier<first>(change.x, multipliers);
+  add_to_multiplier<first>(change.y, multipliers + kLanesOfSet);
+  add_to_multiplier<first>(change.z, multipliers + 2 * kLanesOfSet);
+}
+
+std::vector<int> slots_of(const BendChain& chain, const LaneLayout& layout) {
+  std::vector<int> slots;
+  for (const VertexId vertex : chain.vertices)
+    slots.push_back(layout.places[static_cast<std::size_t>(vertex)].slot);
+  return slots;
 }
 
 }  // namespace
 
-BendProgram::BendProgram(const ClothModel& model, const LaneLayout& layout, double h) {
-  const std::vector<BendConstraint> bends = bend_constraints(model, h);
-  for (const LaneOperation& operation : compile_operations(candidates_of(model, bends, layout))) {
-    append_to_stretches(stretches_, static_cast<int>(operations_.size()), operation.first_slots, 3);
-    operations_.push_back(
-        {operation.first_slots[0], operation.first_slots[1], operation.first_slots[2]});
-    members_.push_back(operation.members);
-    Block block;
-    block.denominator_share.fill(kEmptyLane);
-    for (std::size_t lane = 0; lane < operation.members.size(); ++lane) {
-      if (operation.members[lane] < 0) continue;
-      const BendConstraint& bend = bends[static_cast<std::size_t>(operation.members[lane])];
-      block.before[lane] = static_cast<float>(bend.weights[0]);
-      block.after[lane] = static_cast<float>(bend.weights[2]);
-      block.compliance[lane] = bend.compliance;
-      block.denominator_share[lane] = block.compliance[lane] + kRigidCompliance;
-    }
-    blocks_.push_back(block);
+BendProgram::BendProgram(const ClothModel& model, const LaneLayout& layout, double h)
+    : chains_(bend_chains(model, bend_constraints(model, h))) {
+  gather_sets(layout);
+  int n_places = 0;
+  int longest = 0;
+  for (const ThreadSet& set : sets_) {
+    n_places += set.n_bends;
+    longest = std::max(longest, set.n_bends);
   }
-  multipliers_.resize(operations_.size() * kMultiplierFloats);
+  multipliers_.resize(static_cast<std::size_t>(n_places * kMultiplierFloats));
+  scratch_.resize(static_cast<std::size_t>((longest + 2) * kSolveFloats));
 }
 
-// C = b_0 (x_0 - x_1) + b_2 (x_2 - x_1), a vector; each component is a linear constraint of its own
-// with the same denominator.
-template <bool first>
-void BendProgram::sweep(const LaneView& view) {
-  const LaneView v = view;
-  for_each_operation(stretches_, members_, [&](int index, int lane, auto lanes) {
-    using Lanes = decltype(lanes);
-    const Operation& operation = operations_[static_cast<std::size_t>(index)];
-    const Block& block = blocks_[static_cast<std::size_t>(index)];
-    const int before = operation.before + lane;
-    const int middle = operation.middle + lane;
-    const int after = operation.after + lane;
-    const Lanes b_0 = Lanes::load(block.before.data() + lane);
-    const Lanes b_2 = Lanes::load(block.after.data() + lane);
-    const Lanes b_1 = b_0 + b_2;
-    const Vec3Lanes<Lanes> move_0 = load<Lanes>(v.moves, before);
-    const Vec3Lanes<Lanes> move_1 = load<Lanes>(v.moves, middle);
-    const Vec3Lanes<Lanes> move_2 = load<Lanes>(v.moves, after);
-    const Vec3Lanes<Lanes> begin_1 = load<Lanes>(v.begins, middle);
-    const Vec3Lanes<Lanes> d_0 = (load<Lanes>(v.begins, before) - begin_1) + (move_0 - move_1);
-    const Vec3Lanes<Lanes> d_2 = (load<Lanes>(v.begins, after) - begin_1) + (move_2 - move_1);
-    const Lanes w_0 = Lanes::load(v.inverse_masses + before) * b_0;
-    const Lanes w_1 = Lanes::load(v.inverse_masses + middle) * b_1;
-    const Lanes w_2 = Lanes::load(v.inverse_masses + after) * b_2;
-    Vec3Lanes<Lanes> error = b_0 * d_0 + b_2 * d_2;
-    float* const multiplier = multipliers_.data() + kMultiplierFloats * index + lane;
-    if constexpr (!first)
-      error = error + Lanes::load(block.compliance.data() + lane) *
-                          Vec3Lanes<Lanes>{Lanes::load(multiplier), Lanes::load(multiplier + 4),
-                                           Lanes::load(multiplier + 8)};
-    const Lanes gain = Lanes::all(-1.0f) / (w_0 * b_0 + w_1 * b_1 + w_2 * b_2 +
-                                            Lanes::load(block.denominator_share.data() + lane));
-    const Vec3Lanes<Lanes> change = gain * error;
-    add_to_multiplier<first>(change.x, multiplier);
-    add_to_multiplier<first>(change.y, multiplier + 4);
-    add_to_multiplier<first>(change.z, multiplier + 8);
-    store(move_0 + w_0 * change, v.moves, before);
-    store(move_1 - w_1 * change, v.moves, middle);
-    store(move_2 + w_2 * change, v.moves, after);
+void BendProgram::append_set(const std::vector<int>& chains, bool in_groups,
+                             const LaneLayout& layout) {
+  constexpr int kPadding = 0;  // slot of no vertex
+  ThreadSet set;
+  set.in_groups = in_groups;
+  set.first_slot = static_cast<int>(slots_.size());
+  if (!sets_.empty())
+    set.first_multiplier = sets_.back().first_multiplier + sets_.back().n_bends * kMultiplierFloats;
+  std::array<std::vector<int>, kLanesOfSet> slots;
+  std::size_t n_places = 0;
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    const std::vector<int> of_chain =
+        slots_of(chains_[static_cast<std::size_t>(chains[i])], layout);
+    const auto lane = in_groups ? static_cast<std::size_t>(of_chain[0] % kLanesOfSet) : i;
+    set.chains[lane] = chains[i];
+    slots[lane] = of_chain;
+    n_places = std::max(n_places, of_chain.size());
+    if (in_groups && i == 0)
+      for (const int slot : of_chain) slots_.push_back(slot - slot % kLanesOfSet);
+  }
+  set.n_bends = static_cast<int>(n_places) - 2;
+  if (!in_groups)
+    for (std::size_t place = 0; place < n_places; ++place)
+      for (const std::vector<int>& of_chain : slots)
+        slots_.push_back(place < of_chain.size() ? of_chain[place] : kPadding);
+  sets_.push_back(set);
+}
+
+// Threads that run through the same groups, each in its lane, need no gathering.
+void BendProgram::gather_sets(const LaneLayout& layout) {
+  std::map<std::vector<int>, std::vector<int>> by_groups;
+  std::vector<int> others;
+  for (std::size_t c = 0; c < chains_.size(); ++c) {
+    const std::vector<int> slots = slots_of(chains_[c], layout);
+    const int lane = slots.front() % kLanesOfSet;
+    const bool keeps_lane = std::all_of(slots.begin(), slots.end(),
+                                        [&](int slot) { return slot % kLanesOfSet == lane; });
+    std::vector<int> groups;
+    for (const int slot : slots) groups.push_back(slot - lane);
+    if (keeps_lane)
+      by_groups[groups].push_back(static_cast<int>(c));
+    else
+      others.push_back(static_cast<int>(c));
+  }
+  for (const auto& [groups, chains] : by_groups) {
+    if (chains.size() > 1 && chains.size() <= kLanesOfSet)
+      append_set(chains, true, layout);
+    else
+      others.insert(others.end(), chains.begin(), chains.end());
+  }
+  gather_others(std::move(others), layout);
+}
+
+// Four of about one length that share no vertex come together, in the order of their numbers.
+void BendProgram::gather_others(std::vector<int> chains, const LaneLayout& layout) {
+  constexpr double kLongestOverShortest = 1.25;
+  const auto length_of = [this](int chain) {
+    return chains_[static_cast<std::size_t>(chain)].vertices.size();
+  };
+  std::sort(chains.begin(), chains.end(), [&](int a, int b) {
+    return std::make_pair(length_of(a), a) < std::make_pair(length_of(b), b);
   });
+  std::vector<std::size_t> last_set(static_cast<std::size_t>(layout.n_slots), 0);
+  std::vector<int> together;
+  for (const int chain : chains) {
+    const std::vector<int> slots = slots_of(chains_[static_cast<std::size_t>(chain)], layout);
+    const auto is_in_set = [&](int slot) {
+      return last_set[static_cast<std::size_t>(slot)] == sets_.size() + 1;
+    };
+    const bool fits = together.size() < kLanesOfSet &&
+                      std::none_of(slots.begin(), slots.end(), is_in_set) &&
+                      (together.empty() ||
+                       static_cast<double>(length_of(chain)) <=
+                           kLongestOverShortest * static_cast<double>(length_of(together[0])));
+    if (!fits) {
+      append_set(together, false, layout);
+      together.clear();
+    }
+    together.push_back(chain);
+    for (const int slot : slots) last_set[static_cast<std::size_t>(slot)] = sets_.size() + 1;
+  }
+  if (!together.empty()) append_set(together, false, layout);
+}
+
+std::vector<BendProgram::Place> BendProgram::places_of(const ThreadSet& set,
+                                                       const float* inverse_masses) const {
+  std::vector<Place> places(static_cast<std::size_t>(set.n_bends + 2));
+  for (std::size_t lane = 0; lane < kLanesOfSet; ++lane) {
+    if (set.chains[lane] < 0) continue;
+    const BendChain& chain = chains_[static_cast<std::size_t>(set.chains[lane])];
+    std::vector<double> of_vertices;
+    for (std::size_t v = 0; v < chain.vertices.size(); ++v) {
+      const std::size_t at =
+          static_cast<std::size_t>(set.first_slot) + (set.in_groups ? v : kLanesOfSet * v + lane);
+      places[v].inverse_mass[lane] =
+          inverse_masses[slots_[at] + (set.in_groups ? static_cast<int>(lane) : 0)];
+      of_vertices.push_back(places[v].inverse_mass[lane]);
+    }
+    const BendChainFactor factor = bend_chain_factor(chain, of_vertices);
+    for (std::size_t i = 0; i < chain.bends.size(); ++i) {
+      Place& place = places[i];
+      place.before[lane] = chain.bends[i].before;
+      place.after[lane] = chain.bends[i].after;
+      place.compliance[lane] = chain.bends[i].compliance;
+      place.next_but_one[lane] = static_cast<float>(factor.rows[i].next_but_one);
+      place.next[lane] = static_cast<float>(factor.rows[i].next);
+      place.inverse_pivot[lane] = static_cast<float>(factor.rows[i].inverse_pivot);
+    }
+  }
+  return places;
+}
+
+// Threads of a regular sheet have equal numbers, but for some near borders and pins, and then those
+// of the whole sheet stay in the nearest cache.
+void BendProgram::refresh_pins(const float* inverse_masses) {
+  constexpr std::size_t kRemembered = 8;
+  std::vector<const ThreadSet*> different;
+  places_.clear();
+  for (ThreadSet& set : sets_) {
+    const std::vector<Place> places = places_of(set, inverse_masses);
+    const auto same = std::find_if(different.begin(), different.end(), [&](const ThreadSet* known) {
+      return known->n_bends == set.n_bends &&
+             std::equal(places.begin(), places.end(), places_.begin() + known->first_place);
+    });
+    if (same != different.end()) {
+      set.first_place = (*same)->first_place;
+      continue;
+    }
+    set.first_place = static_cast<int>(places_.size());
+    places_.insert(places_.end(), places.begin(), places.end());
+    if (different.size() < kRemembered) different.push_back(&set);
+  }
+}
+
+template <class Work>
+void BendProgram::for_each_set(const Work& work) const {
+  for (const ThreadSet& set : sets_) {
+    if (!is_lane_by_lane_) {
+      work(set, 0, Float4{});
+      continue;
+    }
+    for (int lane = 0; lane < kLanesOfSet; ++lane)
+      if (set.chains[static_cast<std::size_t>(lane)] >= 0) work(set, lane, Float1{});
+  }
+}
+
+// With C_i = after_i e_(i+2) - before_i e_(i+1) of the edges e_j = x_j - x_(j-1), the changes of a
+// thread's multipliers solve
+//   (J W J^T + alpha) dlambda = -(C + alpha lambda),
+// by L z = right-hand side on the way out, L^T dlambda = D^-1 z on the way back, where the vertex
+// two places on gets the last of its three shares of W J^T dlambda. x, y and z alike.
+template <class Lanes, bool first, bool in_groups>
+void BendProgram::solve(const LaneView& view, const ThreadSet& set, int lane) {
+  const LaneView v = view;
+  const ThreadSlots<Lanes, in_groups> at{slots_.data() + set.first_slot, lane};
+  const Place* const places = places_.data() + set.first_place;
+  float* const multipliers = multipliers_.data() + set.first_multiplier + lane;
+  float* const scratch = scratch_.data();
+  const auto of = [lane](const PerLane<float>& numbers) {
+    return Lanes::load(numbers.data() + lane);
+  };
+  const Lanes zero = Lanes::all(0);
+  const Vec3Lanes<Lanes> none{zero, zero, zero};
+  Vec3Lanes<Lanes> begin = at.load(v.begins, 0);
+  Vec3Lanes<Lanes> move = at.load(v.moves, 0);
+  store_three(move, scratch);
+  const auto edge_to = [&](int place) {
+    const Vec3Lanes<Lanes> begin_here = at.load(v.begins, place);
+    const Vec3Lanes<Lanes> move_here = at.load(v.moves, place);
+    const Vec3Lanes<Lanes> edge = (begin_here - begin) + (move_here - move);
+    begin = begin_here;
+    move = move_here;
+    store_three(move, scratch + kSolveFloats * place);
+    return edge;
+  };
+  Vec3Lanes<Lanes> edge = edge_to(1);
+  Vec3Lanes<Lanes> z_1 = none;  // of the place before
+  Vec3Lanes<Lanes> z_2 = none;  // of the one before that
+  for (int i = 0; i < set.n_bends; ++i) {
+    const Place& place = places[i];
+    const Vec3Lanes<Lanes> edge_after = edge_to(i + 2);
+    Vec3Lanes<Lanes> z = of(place.before) * edge - of(place.after) * edge_after;
+    if constexpr (!first)
+      z = z - of(place.compliance) * three_at<Lanes>(multipliers + kMultiplierFloats * i);
+    z = (z - of(place.next_but_one) * z_2) - of(place.next) * z_1;
+    store_three(of(place.inverse_pivot) * z, scratch + kSolveFloats * i + kMultiplierFloats);
+    z_2 = z_1;
+    z_1 = z;
+    edge = edge_after;
+  }
+  Vec3Lanes<Lanes> change_1 = none;  // of the place after
+  Vec3Lanes<Lanes> change_2 = none;  // of the one after that
+  Vec3Lanes<Lanes> by_1 = none;      // before_(i+1) dlambda_(i+1)
+  Vec3Lanes<Lanes> by_2 = none;
+  Vec3Lanes<Lanes> by_after_1 = none;
+  Lanes next_1 = zero;          // L_(i+1, i)
+  Lanes next_but_one_1 = zero;  // L_(i+1, i-1)
+  Lanes next_but_one_2 = zero;  // L_(i+2, i)
+  const auto move_vertex = [&](int place, const Vec3Lanes<Lanes>& by) {
+    at.store(three_at<Lanes>(scratch + kSolveFloats * place) + of(places[place].inverse_mass) * by,
+             v.moves, place);
+  };
+  for (int i = set.n_bends - 1; i >= 0; --i) {
+    const Place& place = places[i];
+    const Vec3Lanes<Lanes> change =
+        (three_at<Lanes>(scratch + kSolveFloats * i + kMultiplierFloats) -
+         next_but_one_2 * change_2) -
+        next_1 * change_1;
+    add_three<first>(change, multipliers + kMultiplierFloats * i);
+    const Vec3Lanes<Lanes> by_before = of(place.before) * change;
+    const Vec3Lanes<Lanes> by_after = of(place.after) * change;
+    move_vertex(i + 2, (by_after - (by_1 + by_after_1)) + by_2);
+    by_2 = by_1;
+    by_1 = by_before;
+    by_after_1 = by_after;
+    change_2 = change_1;
+    change_1 = change;
+    next_but_one_2 = next_but_one_1;
+    next_but_one_1 = of(place.next_but_one);
+    next_1 = of(place.next);
+  }
+  move_vertex(1, by_2 - (by_1 + by_after_1));
+  move_vertex(0, by_1);
 }
 
 void BendProgram::sweep(const LaneView& view, bool is_first) {
-  is_first ? sweep<true>(view) : sweep<false>(view);
+  for_each_set([&](const ThreadSet& set, int lane, auto lanes) {
+    using Lanes = decltype(lanes);
+    if (set.in_groups)
+      is_first ? solve<Lanes, true, true>(view, set, lane)
+               : solve<Lanes, false, true>(view, set, lane);
+    else
+      is_first ? solve<Lanes, true, false>(view, set, lane)
+               : solve<Lanes, false, false>(view, set, lane);
+  });
 }
 
-double BendProgram::squared_residual(const LaneView& v) const {
-  Float4 sum = Float4::all(0);
-  for (std::size_t i = 0; i < operations_.size(); ++i) {
-    const Operation& operation = operations_[i];
-    const Block& block = blocks_[i];
-    const auto place = [&](int slot) {
-      return load<Float4>(v.begins, slot) - load<Float4>(v.begins, operation.middle) +
-             (load<Float4>(v.moves, slot) - load<Float4>(v.moves, operation.middle));
+/// visit(x, y and z of the errors of four elements)
+template <class Visit>
+void BendProgram::visit_errors(const LaneView& v, const Visit& visit) const {
+  const auto visit_set = [&](const auto& at, const ThreadSet& set) {
+    const Place* const places = places_.data() + set.first_place;
+    const float* multipliers = multipliers_.data() + set.first_multiplier;
+    const auto edge_to = [&](int place) {
+      return (at.load(v.begins, place) - at.load(v.begins, place - 1)) +
+             (at.load(v.moves, place) - at.load(v.moves, place - 1));
     };
-    const float* const multiplier = multipliers_.data() + kMultiplierFloats * i;
-    const Vec3Lanes<Float4> error =
-        Float4::load(block.before.data()) * place(operation.before) +
-        Float4::load(block.after.data()) * place(operation.after) +
-        Float4::load(block.compliance.data()) * Vec3Lanes<Float4>{Float4::load(multiplier),
-                                                                  Float4::load(multiplier + 4),
-                                                                  Float4::load(multiplier + 8)};
-    sum = sum + dot(error, error);  // empty lanes have zero weights
+    for (int i = 0; i < set.n_bends; ++i) {
+      visit(Float4::load(places[i].after.data()) * edge_to(i + 2) -
+            Float4::load(places[i].before.data()) * edge_to(i + 1) +
+            Float4::load(places[i].compliance.data()) * three_at<Float4>(multipliers));
+      multipliers += kMultiplierFloats;
+    }
+  };
+  for (const ThreadSet& set : sets_) {
+    const int* const slots = slots_.data() + set.first_slot;
+    if (set.in_groups)
+      visit_set(ThreadSlots<Float4, true>{slots, 0}, set);
+    else
+      visit_set(ThreadSlots<Float4, false>{slots, 0}, set);
   }
+}
+
+void BendProgram::errors(const LaneView& view, float unit, float* errors) const {
+  const Float4 inverse = Float4::all(1 / unit);
+  visit_errors(view, [&](const Vec3Lanes<Float4>& of_four) {
+    store_three(inverse * of_four, errors);
+    errors += kMultiplierFloats;
+  });
+}
+
+double BendProgram::squared_residual(const LaneView& view) const {
+  Float4 sum = Float4::all(0);
+  visit_errors(view, [&](const Vec3Lanes<Float4>& of_four) { sum = sum + dot(of_four, of_four); });
   return sum_of_lanes<double>(sum);
 }
 
