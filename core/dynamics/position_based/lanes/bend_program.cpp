@@ -7,10 +7,6 @@ namespace {
 
 constexpr int kLanesOfSet = Float4::kLanes;
 constexpr int kMultiplierFloats = 3 * kLanesOfSet;
-/// Groups kept per place between elimination and substitution: moves, and multipliers as far as the
-/// places before say.
-constexpr int kSolveFloats = 6 * kLanesOfSet;
-
 /// Where the vertices of four threads are, place by place.
 template <class Lanes, bool in_groups>
 struct ThreadSlots {
@@ -84,7 +80,8 @@ BendProgram::BendProgram(const ClothModel& model, const LaneLayout& layout, doub
     longest = std::max(longest, set.n_bends);
   }
   multipliers_.resize(static_cast<std::size_t>(n_places * kMultiplierFloats));
-  scratch_.resize(static_cast<std::size_t>((longest + 2) * kSolveFloats));
+  const int n_scratch = std::max(longest + 2, layout.row_slots());
+  scratch_.resize(static_cast<std::size_t>(n_scratch * kMultiplierFloats));
 }
 
 void BendProgram::append_set(const std::vector<int>& chains, bool in_groups,
@@ -112,7 +109,24 @@ void BendProgram::append_set(const std::vector<int>& chains, bool in_groups,
     for (std::size_t place = 0; place < n_places; ++place)
       for (const std::vector<int>& of_chain : slots)
         slots_.push_back(place < of_chain.size() ? of_chain[place] : kPadding);
+  set.stride = stride_of(set, layout);
   sets_.push_back(set);
+}
+
+// Four rows that begin with the first piece of each: place p is lane p / stride of group p mod
+// stride.
+int BendProgram::stride_of(const ThreadSet& set, const LaneLayout& layout) const {
+  if (set.in_groups || set.n_bends + 2 > layout.row_slots()) return 0;
+  const int* const slots = slots_.data() + set.first_slot;
+  for (int place = 0; place < set.n_bends + 2; ++place)
+    for (int row = 0; row < kLanesOfSet; ++row) {
+      if (set.chains[static_cast<std::size_t>(row)] < 0) continue;
+      const int first = slots[row];
+      const int expected = first + kLanesOfSet * (place % layout.stride) + place / layout.stride;
+      const bool is_first_piece = first % kLanesOfSet == 0 && first > 0;
+      if (!is_first_piece || slots[kLanesOfSet * place + row] != expected) return 0;
+    }
+  return layout.stride;
 }
 
 // Threads that run through the same groups, each in its lane, need no gathering.
@@ -189,6 +203,7 @@ std::vector<BendProgram::Place> BendProgram::places_of(const ThreadSet& set,
     for (std::size_t i = 0; i < chain.bends.size(); ++i) {
       Place& place = places[i];
       place.before[lane] = chain.bends[i].before;
+      place.middle[lane] = chain.bends[i].before + chain.bends[i].after;
       place.after[lane] = chain.bends[i].after;
       place.compliance[lane] = chain.bends[i].compliance;
       place.next_but_one[lane] = static_cast<float>(factor.rows[i].next_but_one);
@@ -238,33 +253,18 @@ void BendProgram::for_each_set(const Work& work) const {
 //   (J W J^T + alpha) dlambda = -(C + alpha lambda),
 // by L z = right-hand side on the way out, L^T dlambda = D^-1 z on the way back, where the vertex
 // two places on gets the last of its three shares of W J^T dlambda. x, y and z alike.
-template <class Lanes, bool first, bool in_groups>
-void BendProgram::solve(const LaneView& view, const ThreadSet& set, int lane) {
-  const LaneView v = view;
-  const ThreadSlots<Lanes, in_groups> at{slots_.data() + set.first_slot, lane};
+template <class Lanes, bool first, class EdgeTo>
+void BendProgram::eliminate(const ThreadSet& set, int lane, const EdgeTo& edge_to) {
   const Place* const places = places_.data() + set.first_place;
-  float* const multipliers = multipliers_.data() + set.first_multiplier + lane;
+  const float* const multipliers = multipliers_.data() + set.first_multiplier + lane;
   float* const scratch = scratch_.data();
   const auto of = [lane](const PerLane<float>& numbers) {
     return Lanes::load(numbers.data() + lane);
   };
   const Lanes zero = Lanes::all(0);
-  const Vec3Lanes<Lanes> none{zero, zero, zero};
-  Vec3Lanes<Lanes> begin = at.load(v.begins, 0);
-  Vec3Lanes<Lanes> move = at.load(v.moves, 0);
-  store_three(move, scratch);
-  const auto edge_to = [&](int place) {
-    const Vec3Lanes<Lanes> begin_here = at.load(v.begins, place);
-    const Vec3Lanes<Lanes> move_here = at.load(v.moves, place);
-    const Vec3Lanes<Lanes> edge = (begin_here - begin) + (move_here - move);
-    begin = begin_here;
-    move = move_here;
-    store_three(move, scratch + kSolveFloats * place);
-    return edge;
-  };
   Vec3Lanes<Lanes> edge = edge_to(1);
-  Vec3Lanes<Lanes> z_1 = none;  // of the place before
-  Vec3Lanes<Lanes> z_2 = none;  // of the one before that
+  Vec3Lanes<Lanes> z_1{zero, zero, zero};  // of the place before
+  Vec3Lanes<Lanes> z_2 = z_1;              // of the one before that
   for (int i = 0; i < set.n_bends; ++i) {
     const Place& place = places[i];
     const Vec3Lanes<Lanes> edge_after = edge_to(i + 2);
@@ -272,50 +272,130 @@ void BendProgram::solve(const LaneView& view, const ThreadSet& set, int lane) {
     if constexpr (!first)
       z = z - of(place.compliance) * three_at<Lanes>(multipliers + kMultiplierFloats * i);
     z = (z - of(place.next_but_one) * z_2) - of(place.next) * z_1;
-    store_three(of(place.inverse_pivot) * z, scratch + kSolveFloats * i + kMultiplierFloats);
+    store_three(of(place.inverse_pivot) * z, scratch + kMultiplierFloats * i);
     z_2 = z_1;
     z_1 = z;
     edge = edge_after;
   }
-  Vec3Lanes<Lanes> change_1 = none;  // of the place after
-  Vec3Lanes<Lanes> change_2 = none;  // of the one after that
-  Vec3Lanes<Lanes> by_1 = none;      // before_(i+1) dlambda_(i+1)
-  Vec3Lanes<Lanes> by_2 = none;
-  Vec3Lanes<Lanes> by_after_1 = none;
-  Lanes next_1 = zero;          // L_(i+1, i)
-  Lanes next_but_one_1 = zero;  // L_(i+1, i-1)
-  Lanes next_but_one_2 = zero;  // L_(i+2, i)
-  const auto move_vertex = [&](int place, const Vec3Lanes<Lanes>& by) {
-    at.store(three_at<Lanes>(scratch + kSolveFloats * place) + of(places[place].inverse_mass) * by,
-             v.moves, place);
+}
+
+/// move_by(place, how far to move the vertex there)
+template <class Lanes, bool first, class MoveBy>
+void BendProgram::substitute(const ThreadSet& set, int lane, const MoveBy& move_by) {
+  const Place* const places = places_.data() + set.first_place;
+  float* const multipliers = multipliers_.data() + set.first_multiplier + lane;
+  const float* const scratch = scratch_.data();
+  const auto of = [lane](const PerLane<float>& numbers) {
+    return Lanes::load(numbers.data() + lane);
   };
+  const Lanes zero = Lanes::all(0);
+  Vec3Lanes<Lanes> change_1{zero, zero, zero};  // of the place after
+  Vec3Lanes<Lanes> change_2 = change_1;         // of the one after that
   for (int i = set.n_bends - 1; i >= 0; --i) {
     const Place& place = places[i];
+    const Place& place_1 = places[i + 1];
+    const Place& place_2 = places[i + 2];
     const Vec3Lanes<Lanes> change =
-        (three_at<Lanes>(scratch + kSolveFloats * i + kMultiplierFloats) -
-         next_but_one_2 * change_2) -
-        next_1 * change_1;
+        (three_at<Lanes>(scratch + kMultiplierFloats * i) - of(place_2.next_but_one) * change_2) -
+        of(place_1.next) * change_1;
     add_three<first>(change, multipliers + kMultiplierFloats * i);
-    const Vec3Lanes<Lanes> by_before = of(place.before) * change;
-    const Vec3Lanes<Lanes> by_after = of(place.after) * change;
-    move_vertex(i + 2, (by_after - (by_1 + by_after_1)) + by_2);
-    by_2 = by_1;
-    by_1 = by_before;
-    by_after_1 = by_after;
+    move_by(i + 2,
+            of(place_2.inverse_mass) * ((of(place.after) * change - of(place_1.middle) * change_1) +
+                                        of(place_2.before) * change_2));
     change_2 = change_1;
     change_1 = change;
-    next_but_one_2 = next_but_one_1;
-    next_but_one_1 = of(place.next_but_one);
-    next_1 = of(place.next);
   }
-  move_vertex(1, by_2 - (by_1 + by_after_1));
-  move_vertex(0, by_1);
+  move_by(1, of(places[1].inverse_mass) *
+                 (of(places[1].before) * change_2 - of(places[0].middle) * change_1));
+  move_by(0, of(places[0].inverse_mass) * (of(places[0].before) * change_1));
+}
+
+template <class Lanes, bool first, bool in_groups>
+void BendProgram::solve(const LaneView& view, const ThreadSet& set, int lane) {
+  const LaneView v = view;
+  const ThreadSlots<Lanes, in_groups> at{slots_.data() + set.first_slot, lane};
+  Vec3Lanes<Lanes> begin = at.load(v.begins, 0);
+  Vec3Lanes<Lanes> move = at.load(v.moves, 0);
+  eliminate<Lanes, first>(set, lane, [&](int place) {
+    const Vec3Lanes<Lanes> begin_before = begin;
+    const Vec3Lanes<Lanes> move_before = move;
+    begin = at.load(v.begins, place);
+    move = at.load(v.moves, place);
+    return (begin - begin_before) + (move - move_before);
+  });
+  substitute<Lanes, first>(set, lane, [&](int place, const Vec3Lanes<Lanes>& by) {
+    at.store(at.load(v.moves, place) + by, v.moves, place);
+  });
+}
+
+// Four rows at once: what is in four pieces of a row, for four rows, is turned into four places of
+// four rows, and back.
+template <bool first>
+void BendProgram::solve_rows(const LaneView& view, const ThreadSet& set) {
+  const LaneView v = view;
+  std::array<int, kLanesOfSet> rows;
+  for (std::size_t row = 0; row < rows.size(); ++row)  // in the place of none the first, not moved
+    rows[row] = slots_[static_cast<std::size_t>(set.first_slot) + (set.chains[row] < 0 ? 0 : row)];
+  const int stride = set.stride;
+  float* const scratch = scratch_.data();
+  const auto scratch_of = [=](int group, int piece, int component) {
+    return scratch + kMultiplierFloats * (group + piece * stride) + kLanesOfSet * component;
+  };
+  for (int group = 0; group < stride; ++group) {
+    // The last group, one float further on, holds the ends of the pieces before.
+    const int before = group > 0 ? kLanesOfSet * (group - 1) : kLanesOfSet * (stride - 1) - 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto edges = [&](int row) {
+        const float* const begin = v.begins[k] + row;
+        const float* const move = v.moves[k] + row;
+        const int here = kLanesOfSet * group;
+        return (Float4::load(begin + here) - Float4::load(begin + before)) +
+               (Float4::load(move + here) - Float4::load(move + before));
+      };
+      Float4 a = edges(rows[0]);
+      Float4 b = edges(rows[1]);
+      Float4 c = edges(rows[2]);
+      Float4 d = edges(rows[3]);
+      transpose(a, b, c, d);
+      const int component = static_cast<int>(k);
+      a.store(scratch_of(group, 0, component));
+      b.store(scratch_of(group, 1, component));
+      c.store(scratch_of(group, 2, component));
+      d.store(scratch_of(group, 3, component));
+    }
+  }
+  eliminate<Float4, first>(
+      set, 0, [=](int place) { return three_at<Float4>(scratch + kMultiplierFloats * place); });
+  substitute<Float4, first>(set, 0, [=](int place, const Vec3Lanes<Float4>& by) {
+    store_three(by, scratch + kMultiplierFloats * place);
+  });
+  std::fill(scratch + kMultiplierFloats * (set.n_bends + 2),
+            scratch + kMultiplierFloats * kLanesOfSet * stride, 0.0f);
+  for (int group = 0; group < stride; ++group)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int component = static_cast<int>(k);
+      Float4 a = Float4::load(scratch_of(group, 0, component));
+      Float4 b = Float4::load(scratch_of(group, 1, component));
+      Float4 c = Float4::load(scratch_of(group, 2, component));
+      Float4 d = Float4::load(scratch_of(group, 3, component));
+      transpose(a, b, c, d);
+      const auto move_row = [&](int row, Float4 by) {
+        float* const move = v.moves[k] + row + kLanesOfSet * group;
+        (Float4::load(move) + by).store(move);
+      };
+      move_row(rows[0], a);
+      move_row(rows[1], b);
+      move_row(rows[2], c);
+      move_row(rows[3], d);
+    }
 }
 
 void BendProgram::sweep(const LaneView& view, bool is_first) {
   for_each_set([&](const ThreadSet& set, int lane, auto lanes) {
     using Lanes = decltype(lanes);
-    if (set.in_groups)
+    if (set.stride > 0 && Lanes::kLanes > 1)
+      is_first ? solve_rows<true>(view, set) : solve_rows<false>(view, set);
+    else if (set.in_groups)
       is_first ? solve<Lanes, true, true>(view, set, lane)
                : solve<Lanes, false, true>(view, set, lane);
     else

@@ -44,7 +44,7 @@ class BendProgram {
   /// What a place of four threads needs: numbers of the element that begins there, then the inverse
   /// masses of the vertices. 0 where a thread has no such element or vertex.
   struct Place {
-    PerLane<float> before{}, after{};
+    PerLane<float> before{}, middle{}, after{};  // weights, the middle one with opposite sign
     PerLane<float> compliance{};
     PerLane<float> next_but_one{}, next{}, inverse_pivot{};  // see BendChainFactor
     PerLane<float> inverse_mass{};
@@ -54,6 +54,7 @@ class BendProgram {
   struct ThreadSet {
     LaneMembers chains = kNoMembers;
     bool in_groups = false;  // each place is one group: one slot stands for four
+    int stride = 0;          // of whole rows of the layout; 0 for other threads
     int n_bends = 0;         // of the longest
     int first_slot = 0;      // index into slots_
     int first_place = 0;     // into places_; equal sets share them
@@ -61,6 +62,7 @@ class BendProgram {
   };
 
   void gather_sets(const LaneLayout& layout);
+  int stride_of(const ThreadSet& set, const LaneLayout& layout) const;
   void gather_others(std::vector<int> chains, const LaneLayout& layout);
   void append_set(const std::vector<int>& chains, bool in_groups, const LaneLayout& layout);
   std::vector<Place> places_of(const ThreadSet& set, const float* inverse_masses) const;
@@ -69,6 +71,12 @@ class BendProgram {
   void for_each_set(const Work& work) const;
   template <class Lanes, bool first, bool in_groups>
   void solve(const LaneView& view, const ThreadSet& set, int lane);
+  template <bool first>
+  void solve_rows(const LaneView& view, const ThreadSet& set);
+  template <class Lanes, bool first, class EdgeTo>
+  void eliminate(const ThreadSet& set, int lane, const EdgeTo& edge_to);
+  template <class Lanes, bool first, class MoveBy>
+  void substitute(const ThreadSet& set, int lane, const MoveBy& move_by);
   template <class Visit>
   void visit_errors(const LaneView& view, const Visit& visit) const;
 
@@ -78,7 +86,7 @@ class BendProgram {
   std::vector<int> slots_;
   std::vector<Place> places_;
   std::vector<float> multipliers_;  // x, y, z groups per place with an element
-  std::vector<float> scratch_;      // see solve
+  std::vector<float> scratch_;      // three groups per place
 };
 
 }  // namespace pleat

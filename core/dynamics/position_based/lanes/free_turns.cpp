@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace pleat {
@@ -10,6 +11,9 @@ namespace {
 
 /// Pins nearer to a line than this share of its length are in it.
 constexpr double kLineTolerance = 1e-6;
+/// Least share of gravity along the only axis. About a flatter one weight brings cloth back, and a
+/// couple only shifts where it rests.
+constexpr double kLeastSteepness = 0.7;
 /// Axes about which cloth has less than this share of its largest inertia do not turn it: those of
 /// straight threads.
 constexpr double kLeastInertia = 1e-6;
@@ -66,6 +70,7 @@ void FreeTurns::refresh(const ClothModel& model, const float* inverse_masses) {
     if (length > 0) {
       axes = Axes::one;
       axis_ /= length;
+      if (std::abs(axis_.dot(model.gravity)) < kLeastSteepness * model.gravity.norm()) return;
       for (const Pin& pin : model.pins)
         if (axis_.cross(pin.position(0) - point_).norm() > kLineTolerance * length) return;
     }

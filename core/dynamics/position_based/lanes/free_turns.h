@@ -9,8 +9,8 @@
 namespace pleat {
 
 /// Keeps the angular momentum of a substep about the axes that pins leave free: all of them for
-/// cloth that nothing or one point holds, the line of pins that are in one. Pulls of a solve that
-/// is not finished have a couple, and about such an axis nothing takes it up.
+/// cloth that nothing or one point holds, the line of pins that are in one if it is steep. Pulls of
+/// a solve that is not finished have a couple, and about such an axis nothing takes it up.
 ///
 /// Cloth in several pieces, or with a pin that moves, is left as it is. Source:
 /// docs/methods/xpbd.md, "Free turns".
