@@ -167,7 +167,7 @@ void StepperPositionBased::predict() {
   }
 }
 
-// What was carried of the last substep's projections is no outer force.
+// A share that is carried of the last substep's projections is no outer force.
 void StepperPositionBased::note_unconstrained() {
   const std::array<float*, 3> unconstrained = free_turns_.unconstrained();
   const auto n_slots = static_cast<std::size_t>(layout_.n_slots);

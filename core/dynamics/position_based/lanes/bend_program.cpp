@@ -1,13 +1,11 @@
 #include "core/dynamics/position_based/lanes/bend_program.h"
 
-#include <map>
-
 namespace pleat {
 namespace {
 
 constexpr int kLanesOfSet = Float4::kLanes;
 constexpr int kMultiplierFloats = 3 * kLanesOfSet;
-/// Where the vertices of four threads are, place by place.
+/// Places of the vertices of four threads, one after the other.
 template <class Lanes, bool in_groups>
 struct ThreadSlots {
   const int* slots;
@@ -61,21 +59,13 @@ void add_three(const Vec3Lanes<Lanes>& change, float* multipliers) {
   add_to_multiplier<first>(change.z, multipliers + 2 * kLanesOfSet);
 }
 
-std::vector<int> slots_of(const BendChain& chain, const LaneLayout& layout) {
-  std::vector<int> slots;
-  for (const VertexId vertex : chain.vertices)
-    slots.push_back(layout.places[static_cast<std::size_t>(vertex)].slot);
-  return slots;
-}
-
 }  // namespace
 
 BendProgram::BendProgram(const ClothModel& model, const LaneLayout& layout, double h)
-    : chains_(bend_chains(model, bend_constraints(model, h))) {
-  gather_sets(layout);
+    : chains_(bend_chains(model, bend_constraints(model, h))), sets_(bend_sets(chains_, layout)) {
   int n_places = 0;
   int longest = 0;
-  for (const ThreadSet& set : sets_) {
+  for (const BendSet& set : sets_.sets) {
     n_places += set.n_bends;
     longest = std::max(longest, set.n_bends);
   }
@@ -84,109 +74,8 @@ BendProgram::BendProgram(const ClothModel& model, const LaneLayout& layout, doub
   scratch_.resize(static_cast<std::size_t>(n_scratch * kMultiplierFloats));
 }
 
-void BendProgram::append_set(const std::vector<int>& chains, bool in_groups,
-                             const LaneLayout& layout) {
-  constexpr int kPadding = 0;  // slot of no vertex
-  ThreadSet set;
-  set.in_groups = in_groups;
-  set.first_slot = static_cast<int>(slots_.size());
-  if (!sets_.empty())
-    set.first_multiplier = sets_.back().first_multiplier + sets_.back().n_bends * kMultiplierFloats;
-  std::array<std::vector<int>, kLanesOfSet> slots;
-  std::size_t n_places = 0;
-  for (std::size_t i = 0; i < chains.size(); ++i) {
-    const std::vector<int> of_chain =
-        slots_of(chains_[static_cast<std::size_t>(chains[i])], layout);
-    const auto lane = in_groups ? static_cast<std::size_t>(of_chain[0] % kLanesOfSet) : i;
-    set.chains[lane] = chains[i];
-    slots[lane] = of_chain;
-    n_places = std::max(n_places, of_chain.size());
-    if (in_groups && i == 0)
-      for (const int slot : of_chain) slots_.push_back(slot - slot % kLanesOfSet);
-  }
-  set.n_bends = static_cast<int>(n_places) - 2;
-  if (!in_groups)
-    for (std::size_t place = 0; place < n_places; ++place)
-      for (const std::vector<int>& of_chain : slots)
-        slots_.push_back(place < of_chain.size() ? of_chain[place] : kPadding);
-  set.stride = stride_of(set, layout);
-  sets_.push_back(set);
-}
-
-// Four rows that begin with the first piece of each: place p is lane p / stride of group p mod
-// stride.
-int BendProgram::stride_of(const ThreadSet& set, const LaneLayout& layout) const {
-  if (set.in_groups || set.n_bends + 2 > layout.row_slots()) return 0;
-  const int* const slots = slots_.data() + set.first_slot;
-  for (int place = 0; place < set.n_bends + 2; ++place)
-    for (int row = 0; row < kLanesOfSet; ++row) {
-      if (set.chains[static_cast<std::size_t>(row)] < 0) continue;
-      const int first = slots[row];
-      const int expected = first + kLanesOfSet * (place % layout.stride) + place / layout.stride;
-      const bool is_first_piece = first % kLanesOfSet == 0 && first > 0;
-      if (!is_first_piece || slots[kLanesOfSet * place + row] != expected) return 0;
-    }
-  return layout.stride;
-}
-
-// Threads that run through the same groups, each in its lane, need no gathering.
-void BendProgram::gather_sets(const LaneLayout& layout) {
-  std::map<std::vector<int>, std::vector<int>> by_groups;
-  std::vector<int> others;
-  for (std::size_t c = 0; c < chains_.size(); ++c) {
-    const std::vector<int> slots = slots_of(chains_[c], layout);
-    const int lane = slots.front() % kLanesOfSet;
-    const bool keeps_lane = std::all_of(slots.begin(), slots.end(),
-                                        [&](int slot) { return slot % kLanesOfSet == lane; });
-    std::vector<int> groups;
-    for (const int slot : slots) groups.push_back(slot - lane);
-    if (keeps_lane)
-      by_groups[groups].push_back(static_cast<int>(c));
-    else
-      others.push_back(static_cast<int>(c));
-  }
-  for (const auto& [groups, chains] : by_groups) {
-    if (chains.size() > 1 && chains.size() <= kLanesOfSet)
-      append_set(chains, true, layout);
-    else
-      others.insert(others.end(), chains.begin(), chains.end());
-  }
-  gather_others(std::move(others), layout);
-}
-
-// Four of about one length that share no vertex come together, in the order of their numbers.
-void BendProgram::gather_others(std::vector<int> chains, const LaneLayout& layout) {
-  constexpr double kLongestOverShortest = 1.25;
-  const auto length_of = [this](int chain) {
-    return chains_[static_cast<std::size_t>(chain)].vertices.size();
-  };
-  std::sort(chains.begin(), chains.end(), [&](int a, int b) {
-    return std::make_pair(length_of(a), a) < std::make_pair(length_of(b), b);
-  });
-  std::vector<std::size_t> last_set(static_cast<std::size_t>(layout.n_slots), 0);
-  std::vector<int> together;
-  for (const int chain : chains) {
-    const std::vector<int> slots = slots_of(chains_[static_cast<std::size_t>(chain)], layout);
-    const auto is_in_set = [&](int slot) {
-      return last_set[static_cast<std::size_t>(slot)] == sets_.size() + 1;
-    };
-    const bool fits = together.size() < kLanesOfSet &&
-                      std::none_of(slots.begin(), slots.end(), is_in_set) &&
-                      (together.empty() ||
-                       static_cast<double>(length_of(chain)) <=
-                           kLongestOverShortest * static_cast<double>(length_of(together[0])));
-    if (!fits) {
-      append_set(together, false, layout);
-      together.clear();
-    }
-    together.push_back(chain);
-    for (const int slot : slots) last_set[static_cast<std::size_t>(slot)] = sets_.size() + 1;
-  }
-  if (!together.empty()) append_set(together, false, layout);
-}
-
-std::vector<BendProgram::Place> BendProgram::places_of(const ThreadSet& set,
-                                                       const float* inverse_masses) const {
+std::vector<BendProgram::Place> BendProgram::make_places(const BendSet& set,
+                                                         const float* inverse_masses) const {
   std::vector<Place> places(static_cast<std::size_t>(set.n_bends + 2));
   for (std::size_t lane = 0; lane < kLanesOfSet; ++lane) {
     if (set.chains[lane] < 0) continue;
@@ -196,7 +85,7 @@ std::vector<BendProgram::Place> BendProgram::places_of(const ThreadSet& set,
       const std::size_t at =
           static_cast<std::size_t>(set.first_slot) + (set.in_groups ? v : kLanesOfSet * v + lane);
       places[v].inverse_mass[lane] =
-          inverse_masses[slots_[at] + (set.in_groups ? static_cast<int>(lane) : 0)];
+          inverse_masses[sets_.slots[at] + (set.in_groups ? static_cast<int>(lane) : 0)];
       of_vertices.push_back(places[v].inverse_mass[lane]);
     }
     const BendChainFactor factor = bend_chain_factor(chain, of_vertices);
@@ -218,11 +107,11 @@ std::vector<BendProgram::Place> BendProgram::places_of(const ThreadSet& set,
 // of the whole sheet stay in the nearest cache.
 void BendProgram::refresh_pins(const float* inverse_masses) {
   constexpr std::size_t kRemembered = 8;
-  std::vector<const ThreadSet*> different;
+  std::vector<const BendSet*> different;
   places_.clear();
-  for (ThreadSet& set : sets_) {
-    const std::vector<Place> places = places_of(set, inverse_masses);
-    const auto same = std::find_if(different.begin(), different.end(), [&](const ThreadSet* known) {
+  for (BendSet& set : sets_.sets) {
+    const std::vector<Place> places = make_places(set, inverse_masses);
+    const auto same = std::find_if(different.begin(), different.end(), [&](const BendSet* known) {
       return known->n_bends == set.n_bends &&
              std::equal(places.begin(), places.end(), places_.begin() + known->first_place);
     });
@@ -238,7 +127,7 @@ void BendProgram::refresh_pins(const float* inverse_masses) {
 
 template <class Work>
 void BendProgram::for_each_set(const Work& work) const {
-  for (const ThreadSet& set : sets_) {
+  for (const BendSet& set : sets_.sets) {
     if (!is_lane_by_lane_) {
       work(set, 0, Float4{});
       continue;
@@ -254,8 +143,8 @@ void BendProgram::for_each_set(const Work& work) const {
 // by L z = right-hand side on the way out, L^T dlambda = D^-1 z on the way back, where the vertex
 // two places on gets the last of its three shares of W J^T dlambda. x, y and z alike.
 template <class Lanes, bool first, class EdgeTo>
-void BendProgram::eliminate(const ThreadSet& set, int lane, const EdgeTo& edge_to) {
-  const Place* const places = places_.data() + set.first_place;
+void BendProgram::eliminate(const BendSet& set, int lane, const EdgeTo& edge_to) {
+  const Place* const places = places_of(set);
   const float* const multipliers = multipliers_.data() + set.first_multiplier + lane;
   float* const scratch = scratch_.data();
   const auto of = [lane](const PerLane<float>& numbers) {
@@ -263,8 +152,8 @@ void BendProgram::eliminate(const ThreadSet& set, int lane, const EdgeTo& edge_t
   };
   const Lanes zero = Lanes::all(0);
   Vec3Lanes<Lanes> edge = edge_to(1);
-  Vec3Lanes<Lanes> z_1{zero, zero, zero};  // of the place before
-  Vec3Lanes<Lanes> z_2 = z_1;              // of the one before that
+  Vec3Lanes<Lanes> z_1{zero, zero, zero};  // the place before has it
+  Vec3Lanes<Lanes> z_2 = z_1;              // the one before that
   for (int i = 0; i < set.n_bends; ++i) {
     const Place& place = places[i];
     const Vec3Lanes<Lanes> edge_after = edge_to(i + 2);
@@ -281,16 +170,16 @@ void BendProgram::eliminate(const ThreadSet& set, int lane, const EdgeTo& edge_t
 
 /// move_by(place, how far to move the vertex there)
 template <class Lanes, bool first, class MoveBy>
-void BendProgram::substitute(const ThreadSet& set, int lane, const MoveBy& move_by) {
-  const Place* const places = places_.data() + set.first_place;
+void BendProgram::substitute(const BendSet& set, int lane, const MoveBy& move_by) {
+  const Place* const places = places_of(set);
   float* const multipliers = multipliers_.data() + set.first_multiplier + lane;
   const float* const scratch = scratch_.data();
   const auto of = [lane](const PerLane<float>& numbers) {
     return Lanes::load(numbers.data() + lane);
   };
   const Lanes zero = Lanes::all(0);
-  Vec3Lanes<Lanes> change_1{zero, zero, zero};  // of the place after
-  Vec3Lanes<Lanes> change_2 = change_1;         // of the one after that
+  Vec3Lanes<Lanes> change_1{zero, zero, zero};  // the place after has it
+  Vec3Lanes<Lanes> change_2 = change_1;         // the one after that
   for (int i = set.n_bends - 1; i >= 0; --i) {
     const Place& place = places[i];
     const Place& place_1 = places[i + 1];
@@ -311,9 +200,9 @@ void BendProgram::substitute(const ThreadSet& set, int lane, const MoveBy& move_
 }
 
 template <class Lanes, bool first, bool in_groups>
-void BendProgram::solve(const LaneView& view, const ThreadSet& set, int lane) {
+void BendProgram::solve(const LaneView& view, const BendSet& set, int lane) {
   const LaneView v = view;
-  const ThreadSlots<Lanes, in_groups> at{slots_.data() + set.first_slot, lane};
+  const ThreadSlots<Lanes, in_groups> at{sets_.slots.data() + set.first_slot, lane};
   Vec3Lanes<Lanes> begin = at.load(v.begins, 0);
   Vec3Lanes<Lanes> move = at.load(v.moves, 0);
   eliminate<Lanes, first>(set, lane, [&](int place) {
@@ -331,11 +220,12 @@ void BendProgram::solve(const LaneView& view, const ThreadSet& set, int lane) {
 // Four rows at once: what is in four pieces of a row, for four rows, is turned into four places of
 // four rows, and back.
 template <bool first>
-void BendProgram::solve_rows(const LaneView& view, const ThreadSet& set) {
+void BendProgram::solve_rows(const LaneView& view, const BendSet& set) {
   const LaneView v = view;
   std::array<int, kLanesOfSet> rows;
-  for (std::size_t row = 0; row < rows.size(); ++row)  // in the place of none the first, not moved
-    rows[row] = slots_[static_cast<std::size_t>(set.first_slot) + (set.chains[row] < 0 ? 0 : row)];
+  for (std::size_t row = 0; row < rows.size(); ++row)  // the first, unmoved, stands for none
+    rows[row] =
+        sets_.slots[static_cast<std::size_t>(set.first_slot) + (set.chains[row] < 0 ? 0 : row)];
   const int stride = set.stride;
   float* const scratch = scratch_.data();
   const auto scratch_of = [=](int group, int piece, int component) {
@@ -391,7 +281,7 @@ void BendProgram::solve_rows(const LaneView& view, const ThreadSet& set) {
 }
 
 void BendProgram::sweep(const LaneView& view, bool is_first) {
-  for_each_set([&](const ThreadSet& set, int lane, auto lanes) {
+  for_each_set([&](const BendSet& set, int lane, auto lanes) {
     using Lanes = decltype(lanes);
     if (set.stride > 0 && Lanes::kLanes > 1)
       is_first ? solve_rows<true>(view, set) : solve_rows<false>(view, set);
@@ -407,8 +297,8 @@ void BendProgram::sweep(const LaneView& view, bool is_first) {
 /// visit(x, y and z of the errors of four elements)
 template <class Visit>
 void BendProgram::visit_errors(const LaneView& v, const Visit& visit) const {
-  const auto visit_set = [&](const auto& at, const ThreadSet& set) {
-    const Place* const places = places_.data() + set.first_place;
+  const auto visit_set = [&](const auto& at, const BendSet& set) {
+    const Place* const places = places_of(set);
     const float* multipliers = multipliers_.data() + set.first_multiplier;
     const auto edge_to = [&](int place) {
       return (at.load(v.begins, place) - at.load(v.begins, place - 1)) +
@@ -421,8 +311,8 @@ void BendProgram::visit_errors(const LaneView& v, const Visit& visit) const {
       multipliers += kMultiplierFloats;
     }
   };
-  for (const ThreadSet& set : sets_) {
-    const int* const slots = slots_.data() + set.first_slot;
+  for (const BendSet& set : sets_.sets) {
+    const int* const slots = sets_.slots.data() + set.first_slot;
     if (set.in_groups)
       visit_set(ThreadSlots<Float4, true>{slots, 0}, set);
     else

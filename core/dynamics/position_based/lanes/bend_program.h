@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/dynamics/position_based/lane_layout.h"
-#include "core/dynamics/position_based/lanes/bend_chains.h"
+#include "core/dynamics/position_based/lanes/bend_sets.h"
 
 namespace pleat {
 
@@ -37,12 +37,12 @@ class BendProgram {
   /// Works on the lanes one after the other: same result, to hold the two against each other.
   void compute_lane_by_lane() { is_lane_by_lane_ = true; }
 
-  bool empty() const { return sets_.empty(); }
-  std::size_t n_sets() const { return sets_.size(); }
+  bool empty() const { return sets_.sets.empty(); }
+  std::size_t n_sets() const { return sets_.sets.size(); }
 
  private:
-  /// What a place of four threads needs: numbers of the element that begins there, then the inverse
-  /// masses of the vertices. 0 where a thread has no such element or vertex.
+  /// A place of four threads: numbers of the element that begins there, then the inverse masses of
+  /// the vertices. 0 where a thread has no such element or vertex.
   struct Place {
     PerLane<float> before{}, middle{}, after{};  // weights, the middle one with opposite sign
     PerLane<float> compliance{};
@@ -50,41 +50,26 @@ class BendProgram {
     PerLane<float> inverse_mass{};
     bool operator==(const Place&) const = default;
   };
-  /// Four threads that share no vertex.
-  struct ThreadSet {
-    LaneMembers chains = kNoMembers;
-    bool in_groups = false;  // each place is one group: one slot stands for four
-    int stride = 0;          // of whole rows of the layout; 0 for other threads
-    int n_bends = 0;         // of the longest
-    int first_slot = 0;      // index into slots_
-    int first_place = 0;     // into places_; equal sets share them
-    int first_multiplier = 0;
-  };
-
-  void gather_sets(const LaneLayout& layout);
-  int stride_of(const ThreadSet& set, const LaneLayout& layout) const;
-  void gather_others(std::vector<int> chains, const LaneLayout& layout);
-  void append_set(const std::vector<int>& chains, bool in_groups, const LaneLayout& layout);
-  std::vector<Place> places_of(const ThreadSet& set, const float* inverse_masses) const;
+  const Place* places_of(const BendSet& set) const { return places_.data() + set.first_place; }
+  std::vector<Place> make_places(const BendSet& set, const float* inverse_masses) const;
 
   template <class Work>
   void for_each_set(const Work& work) const;
   template <class Lanes, bool first, bool in_groups>
-  void solve(const LaneView& view, const ThreadSet& set, int lane);
+  void solve(const LaneView& view, const BendSet& set, int lane);
   template <bool first>
-  void solve_rows(const LaneView& view, const ThreadSet& set);
+  void solve_rows(const LaneView& view, const BendSet& set);
   template <class Lanes, bool first, class EdgeTo>
-  void eliminate(const ThreadSet& set, int lane, const EdgeTo& edge_to);
+  void eliminate(const BendSet& set, int lane, const EdgeTo& edge_to);
   template <class Lanes, bool first, class MoveBy>
-  void substitute(const ThreadSet& set, int lane, const MoveBy& move_by);
+  void substitute(const BendSet& set, int lane, const MoveBy& move_by);
   template <class Visit>
   void visit_errors(const LaneView& view, const Visit& visit) const;
 
   bool is_lane_by_lane_ = false;
   std::vector<BendChain> chains_;
-  std::vector<ThreadSet> sets_;
-  std::vector<int> slots_;
-  std::vector<Place> places_;
+  BendSets sets_;
+  std::vector<Place> places_;       // set by set; equal ones share theirs
   std::vector<float> multipliers_;  // x, y, z groups per place with an element
   std::vector<float> scratch_;      // three groups per place
 };

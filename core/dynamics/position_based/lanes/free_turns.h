@@ -49,11 +49,11 @@ class FreeTurns {
   const LaneLayout& layout_;
   Axes axes_ = Axes::none;
   bool is_held_ = false;
-  Vec3 point_{0, 0, 0};  // on the axes, where something is held [m]
+  Vec3 point_{0, 0, 0};  // any on the axes, where something is held [m]
   Vec3 axis_{0, 0, 0};   // direction of the only one
-  double mass_ = 0;      // of what moves, over the mean mass of a vertex
+  double mass_ = 0;      // all that moves, over the mean mass of a vertex
   std::vector<float>
-      masses_;  // by slot, over the mean one; 0 where pinned, hanging, and in padding
+      masses_;  // each slot's over the mean one; 0 where pinned, hanging, and in padding
   std::vector<float> unconstrained_;
 };
 

@@ -21,6 +21,7 @@ Cloth crumpled(int n_held) {
   const QuadMesh mesh = square_sheet(4);
   Cloth cloth{sheet_model(mesh, soft_fabric()), rest_state(mesh)};
   for (Spring& spring : cloth.model.springs) spring.stiffness *= 10;
+  cloth.model.masses[24] *= 10;  // so that the centre of mass is not in the middle
   cloth.model.gravity = {0, -9.81, 0};
   cloth.model.surface.rest_positions = mesh.rest_positions();
   cloth.model.surface.triangles = mesh.triangles();
@@ -43,7 +44,7 @@ Vec3 angular_momentum_about(const Vec3& point, const Cloth& cloth) {
   return total;
 }
 
-/// What weight would make of that within a step of h [s].
+/// Change of that by weight within a step of h [s].
 Vec3 turn_by_weight(const Vec3& point, const Cloth& cloth, double h) {
   Vec3 total = Vec3::Zero();
   for (int i = 0; i < cloth.model.n_vertices(); ++i)
