@@ -4,6 +4,8 @@ namespace pleat {
 namespace {
 
 constexpr int kLanesOfSet = Float4::kLanes;
+/// Sets side by side whose groups fill a line of the cache.
+constexpr int kSetsTogether = 4;
 constexpr int kMultiplierFloats = 3 * kLanesOfSet;
 /// Places of the vertices of four threads, one after the other.
 template <class Lanes, bool in_groups>
@@ -70,7 +72,7 @@ BendProgram::BendProgram(const ClothModel& model, const LaneLayout& layout, doub
     longest = std::max(longest, set.n_bends);
   }
   multipliers_.resize(static_cast<std::size_t>(n_places * kMultiplierFloats));
-  const int n_scratch = std::max(longest + 2, layout.row_slots());
+  const int n_scratch = std::max(kSetsTogether * (longest + 2), layout.row_slots());
   scratch_.resize(static_cast<std::size_t>(n_scratch * kMultiplierFloats));
 }
 
@@ -125,28 +127,15 @@ void BendProgram::refresh_pins(const float* inverse_masses) {
   }
 }
 
-template <class Work>
-void BendProgram::for_each_set(const Work& work) const {
-  for (const BendSet& set : sets_.sets) {
-    if (!is_lane_by_lane_) {
-      work(set, 0, Float4{});
-      continue;
-    }
-    for (int lane = 0; lane < kLanesOfSet; ++lane)
-      if (set.chains[static_cast<std::size_t>(lane)] >= 0) work(set, lane, Float1{});
-  }
-}
-
 // With C_i = after_i e_(i+2) - before_i e_(i+1) of the edges e_j = x_j - x_(j-1), the changes of a
 // thread's multipliers solve
 //   (J W J^T + alpha) dlambda = -(C + alpha lambda),
 // by L z = right-hand side on the way out, L^T dlambda = D^-1 z on the way back, where the vertex
 // two places on gets the last of its three shares of W J^T dlambda. x, y and z alike.
 template <class Lanes, bool first, class EdgeTo>
-void BendProgram::eliminate(const BendSet& set, int lane, const EdgeTo& edge_to) {
+void BendProgram::eliminate(const BendSet& set, int lane, float* scratch, const EdgeTo& edge_to) {
   const Place* const places = places_of(set);
   const float* const multipliers = multipliers_.data() + set.first_multiplier + lane;
-  float* const scratch = scratch_.data();
   const auto of = [lane](const PerLane<float>& numbers) {
     return Lanes::load(numbers.data() + lane);
   };
@@ -170,10 +159,10 @@ void BendProgram::eliminate(const BendSet& set, int lane, const EdgeTo& edge_to)
 
 /// move_by(place, how far to move the vertex there)
 template <class Lanes, bool first, class MoveBy>
-void BendProgram::substitute(const BendSet& set, int lane, const MoveBy& move_by) {
+void BendProgram::substitute(const BendSet& set, int lane, const float* scratch,
+                             const MoveBy& move_by) {
   const Place* const places = places_of(set);
   float* const multipliers = multipliers_.data() + set.first_multiplier + lane;
-  const float* const scratch = scratch_.data();
   const auto of = [lane](const PerLane<float>& numbers) {
     return Lanes::load(numbers.data() + lane);
   };
@@ -205,16 +194,50 @@ void BendProgram::solve(const LaneView& view, const BendSet& set, int lane) {
   const ThreadSlots<Lanes, in_groups> at{sets_.slots.data() + set.first_slot, lane};
   Vec3Lanes<Lanes> begin = at.load(v.begins, 0);
   Vec3Lanes<Lanes> move = at.load(v.moves, 0);
-  eliminate<Lanes, first>(set, lane, [&](int place) {
+  eliminate<Lanes, first>(set, lane, scratch_.data(), [&](int place) {
     const Vec3Lanes<Lanes> begin_before = begin;
     const Vec3Lanes<Lanes> move_before = move;
     begin = at.load(v.begins, place);
     move = at.load(v.moves, place);
     return (begin - begin_before) + (move - move_before);
   });
-  substitute<Lanes, first>(set, lane, [&](int place, const Vec3Lanes<Lanes>& by) {
+  substitute<Lanes, first>(set, lane, scratch_.data(), [&](int place, const Vec3Lanes<Lanes>& by) {
     at.store(at.load(v.moves, place) + by, v.moves, place);
   });
+}
+
+// Row by row for sets side by side, so that a line of the cache is used at once; thread by thread
+// between.
+template <bool first>
+void BendProgram::solve_groups(const LaneView& view, const BendSet* sets, int n_sets) {
+  const LaneView v = view;
+  const int* const slots = sets_.slots.data() + sets->first_slot;
+  const int n_places = sets->n_bends + 2;
+  const auto scratch_of = [&](int set, int place) {
+    return scratch_.data() + kMultiplierFloats * (set * n_places + place);
+  };
+  for (int place = 1; place < n_places; ++place)
+    for (int set = 0; set < n_sets; ++set) {
+      const int here = slots[place] + kLanesOfSet * set;
+      const int before = slots[place - 1] + kLanesOfSet * set;
+      store_three((load<Float4>(v.begins, here) - load<Float4>(v.begins, before)) +
+                      (load<Float4>(v.moves, here) - load<Float4>(v.moves, before)),
+                  scratch_of(set, place));
+    }
+  for (int set = 0; set < n_sets; ++set) {
+    float* const scratch = scratch_of(set, 0);
+    eliminate<Float4, first>(sets[set], 0, scratch, [=](int place) {
+      return three_at<Float4>(scratch + kMultiplierFloats * place);
+    });
+    substitute<Float4, first>(sets[set], 0, scratch, [=](int place, const Vec3Lanes<Float4>& by) {
+      store_three(by, scratch + kMultiplierFloats * place);
+    });
+  }
+  for (int place = 0; place < n_places; ++place)
+    for (int set = 0; set < n_sets; ++set) {
+      const int here = slots[place] + kLanesOfSet * set;
+      store(load<Float4>(v.moves, here) + three_at<Float4>(scratch_of(set, place)), v.moves, here);
+    }
 }
 
 // Four rows at once: what is in four pieces of a row, for four rows, is turned into four places of
@@ -254,9 +277,10 @@ void BendProgram::solve_rows(const LaneView& view, const BendSet& set) {
       d.store(scratch_of(group, 3, component));
     }
   }
-  eliminate<Float4, first>(
-      set, 0, [=](int place) { return three_at<Float4>(scratch + kMultiplierFloats * place); });
-  substitute<Float4, first>(set, 0, [=](int place, const Vec3Lanes<Float4>& by) {
+  eliminate<Float4, first>(set, 0, scratch, [=](int place) {
+    return three_at<Float4>(scratch + kMultiplierFloats * place);
+  });
+  substitute<Float4, first>(set, 0, scratch, [=](int place, const Vec3Lanes<Float4>& by) {
     store_three(by, scratch + kMultiplierFloats * place);
   });
   std::fill(scratch + kMultiplierFloats * (set.n_bends + 2),
@@ -280,18 +304,29 @@ void BendProgram::solve_rows(const LaneView& view, const BendSet& set) {
     }
 }
 
+template <bool first>
+void BendProgram::sweep(const LaneView& view) {
+  const std::vector<BendSet>& sets = sets_.sets;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const BendSet& set = sets[i];
+    if (is_lane_by_lane_) {
+      for (int lane = 0; lane < kLanesOfSet; ++lane)
+        if (set.chains[static_cast<std::size_t>(lane)] >= 0)
+          set.in_groups ? solve<Float1, first, true>(view, set, lane)
+                        : solve<Float1, first, false>(view, set, lane);
+    } else if (set.in_groups) {
+      solve_groups<first>(view, &set, 1 + set.n_beside);
+      i += static_cast<std::size_t>(set.n_beside);
+    } else if (set.stride > 0) {
+      solve_rows<first>(view, set);
+    } else {
+      solve<Float4, first, false>(view, set, 0);
+    }
+  }
+}
+
 void BendProgram::sweep(const LaneView& view, bool is_first) {
-  for_each_set([&](const BendSet& set, int lane, auto lanes) {
-    using Lanes = decltype(lanes);
-    if (set.stride > 0 && Lanes::kLanes > 1)
-      is_first ? solve_rows<true>(view, set) : solve_rows<false>(view, set);
-    else if (set.in_groups)
-      is_first ? solve<Lanes, true, true>(view, set, lane)
-               : solve<Lanes, false, true>(view, set, lane);
-    else
-      is_first ? solve<Lanes, true, false>(view, set, lane)
-               : solve<Lanes, false, false>(view, set, lane);
-  });
+  is_first ? sweep<true>(view) : sweep<false>(view);
 }
 
 /// visit(x, y and z of the errors of four elements)

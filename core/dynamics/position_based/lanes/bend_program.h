@@ -53,16 +53,18 @@ class BendProgram {
   const Place* places_of(const BendSet& set) const { return places_.data() + set.first_place; }
   std::vector<Place> make_places(const BendSet& set, const float* inverse_masses) const;
 
-  template <class Work>
-  void for_each_set(const Work& work) const;
+  template <bool first>
+  void sweep(const LaneView& view);
   template <class Lanes, bool first, bool in_groups>
   void solve(const LaneView& view, const BendSet& set, int lane);
   template <bool first>
+  void solve_groups(const LaneView& view, const BendSet* sets, int n_sets);
+  template <bool first>
   void solve_rows(const LaneView& view, const BendSet& set);
   template <class Lanes, bool first, class EdgeTo>
-  void eliminate(const BendSet& set, int lane, const EdgeTo& edge_to);
+  void eliminate(const BendSet& set, int lane, float* scratch, const EdgeTo& edge_to);
   template <class Lanes, bool first, class MoveBy>
-  void substitute(const BendSet& set, int lane, const MoveBy& move_by);
+  void substitute(const BendSet& set, int lane, const float* scratch, const MoveBy& move_by);
   template <class Visit>
   void visit_errors(const LaneView& view, const Visit& visit) const;
 
@@ -71,7 +73,7 @@ class BendProgram {
   BendSets sets_;
   std::vector<Place> places_;       // set by set; equal ones share theirs
   std::vector<float> multipliers_;  // x, y, z groups per place with an element
-  std::vector<float> scratch_;      // three groups per place
+  std::vector<float> scratch_;      // three groups per place, of four sets
 };
 
 }  // namespace pleat

@@ -19,7 +19,9 @@ class BendSetMaker {
       for (const VertexId vertex : chain.vertices)
         chain_slots_.back().push_back(layout.places[static_cast<std::size_t>(vertex)].slot);
     }
-    append_others(append_those_in_groups());
+    const std::vector<int> others = append_those_in_groups();
+    count_beside();
+    append_others(others);
   }
 
   BendSets result;
@@ -52,6 +54,26 @@ class BendSetMaker {
         others.insert(others.end(), chains.begin(), chains.end());
     }
     return others;
+  }
+
+  void count_beside() {
+    std::vector<BendSet>& sets = result.sets;
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      const int* const slots = result.slots.data() + sets[i].first_slot;
+      const auto is_beside = [&](std::size_t other) {
+        const int* const others = result.slots.data() + sets[other].first_slot;
+        const int further = Float4::kLanes * static_cast<int>(other - i);
+        for (int place = 0; place < sets[i].n_bends + 2; ++place)
+          if (others[place] != slots[place] + further) return false;
+        return true;
+      };
+      while (sets[i].n_beside < 3) {
+        const std::size_t other = i + static_cast<std::size_t>(sets[i].n_beside) + 1;
+        if (other >= sets.size() || sets[other].n_bends != sets[i].n_bends || !is_beside(other))
+          break;
+        ++sets[i].n_beside;
+      }
+    }
   }
 
   void append_others(std::vector<int> chains) {

@@ -12,6 +12,7 @@ namespace pleat {
 struct BendSet {
   LaneMembers chains = kNoMembers;  ///< index of the chain in each lane
   bool in_groups = false;           ///< each place is one group: one slot stands for four
+  int n_beside = 0;                 ///< sets after it that are one group further each, at most 3
   int stride = 0;                   ///< the layout's, where the chains are whole rows; else 0
   int n_bends = 0;                  ///< the longest chain's
   int first_slot = 0;               ///< index into BendSets::slots
