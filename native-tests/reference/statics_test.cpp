@@ -155,6 +155,20 @@ TEST_CASE("statics: a cantilever comes to the heavy elastica with projective's f
   CHECK((found - expected(scene)).rightCols<1>().norm() < 0.02 * 0.2);
 }
 
+TEST_CASE("statics: a cantilever comes to the heavy elastica with position-based steps",
+          "[reference]") {
+  const Scene scene = cantilever(Elasticity::springs, 20, 8);  // two bending lengths
+  Scene in_air = scene;
+  in_air.air.emplace();
+  // The threads of pbd and hpbd are longer than at rest by some percent.
+  const auto [stepper, tolerance] =
+      GENERATE(std::pair(&steppers::kXpbd, 0.01), std::pair(&steppers::kMultigrid, 0.01),
+               std::pair(&steppers::kHpbd, 0.05), std::pair(&steppers::kPbd, 0.08));
+  CAPTURE(stepper->name);
+  const Positions found = after(in_air, stepper->usual_method(), 30);
+  CHECK((found - expected(scene)).rightCols<1>().norm() < tolerance * 0.2);
+}
+
 TEST_CASE("statics: a strip sags with projective's few rounds as with implicit", "[reference]") {
   const Scene scene = sagging_strip();
   MethodOptions implicit = steppers::kImplicitEuler.usual_method();

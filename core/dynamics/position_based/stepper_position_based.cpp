@@ -26,6 +26,7 @@ StepperPositionBased::StepperPositionBased(ClothModel& model, const MethodOption
       layout_(lane_layout(model)),
       projections_(make_projections(model, options, layout_, spring_law(options.constraints),
                                     step_of(options))),
+      free_turns_(layout_),
       mean_mass_(model.masses.mean()),
       pitch_(layout_.pitch()),
       data_(pitch_ * (carries() ? kArrays : gained), 0.0f),
@@ -63,6 +64,7 @@ void StepperPositionBased::refresh() {
       std::fill_n(array(gained + k), layout_.n_slots, fall_[static_cast<std::size_t>(k)]);
   pin_velocities_.setZero(3, static_cast<Eigen::Index>(model_.pins.size()));
   projections_->refresh_pins(model_, inverse_masses);
+  free_turns_.refresh(model_, inverse_masses);
   refresh_rest_lengths();
 }
 
@@ -162,6 +164,22 @@ void StepperPositionBased::predict() {
     pleat::store(to, begins, slot);
     pleat::store(remainder, lows, slot);
     pleat::store(remainder + goes_on, v.moves, slot);
+  }
+}
+
+// A share that is carried of the last substep's projections is no outer force.
+void StepperPositionBased::note_unconstrained() {
+  const std::array<float*, 3> unconstrained = free_turns_.unconstrained();
+  const auto n_slots = static_cast<std::size_t>(layout_.n_slots);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int which = static_cast<int>(k);
+    const float* const moves = array(move + which);
+    std::copy(moves, moves + n_slots, unconstrained[k]);
+    if (!carries()) continue;
+    const float* const velocities = array(gained + which);
+    const float* const lows = array(rounded_off + which);
+    for (std::size_t slot = 0; slot < n_slots; ++slot)
+      unconstrained[k][slot] = (velocities[slot] + fall_[k]) + lows[slot];
   }
 }
 
@@ -304,7 +322,9 @@ SolveReport StepperPositionBased::substep(State& state, double time_end, double 
       projections_->forget();
       residual_begin_ = std::sqrt(projections_->squared_residual(v));
     }
+    if (!free_turns_.empty()) note_unconstrained();
     projections_->solve(v, options().iterations);
+    if (!free_turns_.empty()) free_turns_.keep(v, origin_);
     if (carries()) take_gains();
     if (is_last) residual_end_ = std::sqrt(projections_->squared_residual(v));
   }

@@ -8,6 +8,7 @@
 
 #include "core/dynamics/position_based/lanes/contact_program.h"
 #include "core/dynamics/position_based/lanes/damper_program.h"
+#include "core/dynamics/position_based/lanes/free_turns.h"
 #include "core/dynamics/position_based/lanes/lane_projections.h"
 #include "core/dynamics/position_based/spring_law.h"
 #include "core/dynamics/stepper.h"
@@ -76,6 +77,8 @@ class StepperPositionBased final : public Stepper {
   /// lets gravity act.
   template <bool carries>
   void predict();
+  /// Notes where the solve's moves would be without constraints.
+  void note_unconstrained();
   /// Makes of the velocity at the substep's start what has been added to it.
   void take_gains();
   void place_pins(double time_end, double h);
@@ -90,12 +93,13 @@ class StepperPositionBased final : public Stepper {
   std::optional<DamperProgram> dampers_;   // compliant springs with dampers only
   std::optional<ContactProgram> contact_;  // models with solids only
   std::vector<VertexId> vertices_;         // one for each slot, with solids
-  double mean_mass_;                       // [kg]
-  std::size_t pitch_;                      // floats from one array to the next
-  std::vector<float> data_;                // see Array
-  Vec3 origin_{0, 0, 0};                   // origin of the positions [m]
-  double extent_ = 0;                      // size of the cloth about it when the step starts [m]
-  std::array<float, 3> fall_{};            // gravity h^2 [m]
+  FreeTurns free_turns_;
+  double mean_mass_;             // [kg]
+  std::size_t pitch_;            // floats from one array to the next
+  std::vector<float> data_;      // see Array
+  Vec3 origin_{0, 0, 0};         // origin of the positions [m]
+  double extent_ = 0;            // size of the cloth about it when the step starts [m]
+  std::array<float, 3> fall_{};  // gravity h^2 [m]
   int substeps_left_ = 0;
   double residual_begin_ = 0, residual_end_ = 0;  // the last substep's [m]
   std::size_t n_constraints_;                     // constraints of the finest mesh

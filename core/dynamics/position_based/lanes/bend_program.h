@@ -1,51 +1,79 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "core/dynamics/position_based/lane_layout.h"
-#include "core/dynamics/position_based/spring_law.h"
+#include "core/dynamics/position_based/lanes/bend_sets.h"
 
 namespace pleat {
 
-/// The bending elements of a model that join no hanging vertex, compiled into operations on four at
-/// a time. Each is one vector constraint, linear in the positions.
+/// The bending elements of a model that join no hanging vertex: each is one vector constraint,
+/// linear in the positions. Those of a thread are solved at once, four threads at a time. Which
+/// elements are which threads' does not depend on the layout, nor need threads be a grid.
+///
+/// Source: docs/methods/xpbd.md, "Bending".
 class BendProgram {
  public:
   /// h  substep [s]
   BendProgram(const ClothModel& model, const LaneLayout& layout, double h);
 
-  /// Projects each element once; the first sweep of a substep starts from multipliers of zero.
+  /// Takes over inverse masses of each slot, see LaneView. To be called before the first sweep.
+  void refresh_pins(const float* inverse_masses);
+
+  /// Solves each thread once; the first sweep of a substep starts from multipliers of zero.
   void sweep(const LaneView& view, bool is_first);
   /// Makes the multipliers zero.
   void forget() { std::fill(multipliers_.begin(), multipliers_.end(), 0.0f); }
+  std::span<float> multipliers() { return multipliers_; }
 
+  std::size_t n_errors() const { return multipliers_.size(); }
+  /// (C + compliance/h^2 lambda)/unit of each element and component; the unit in [m].
+  void errors(const LaneView& view, float unit, float* errors) const;
   /// Sum of |C + compliance/h^2 lambda|^2 [m^2].
   double squared_residual(const LaneView& view) const;
 
   /// Works on the lanes one after the other: same result, to hold the two against each other.
-  void compute_lane_by_lane() {
-    for (OperationStretch& stretch : stretches_) stretch.whole = false;
-  }
+  void compute_lane_by_lane() { is_lane_by_lane_ = true; }
+
+  bool empty() const { return sets_.sets.empty(); }
+  std::size_t n_sets() const { return sets_.sets.size(); }
 
  private:
-  struct Operation {
-    int before, middle, after;
+  /// A place of four threads: numbers of the element that begins there, then the inverse masses of
+  /// the vertices. 0 where a thread has no such element or vertex.
+  struct Place {
+    PerLane<float> before{}, middle{}, after{};  // weights, the middle one with opposite sign
+    PerLane<float> compliance{};
+    PerLane<float> next_but_one{}, next{}, inverse_pivot{};  // see BendChainFactor
+    PerLane<float> inverse_mass{};
+    bool operator==(const Place&) const = default;
   };
-  struct Block {
-    PerLane<float> before{}, after{};    // weights relative to the middle one
-    PerLane<float> compliance{};         // mean mass / (stiffness h^2); 0 in empty lanes
-    PerLane<float> denominator_share{};  // softened; infinite in empty lanes: nothing moves there
-  };
+  const Place* places_of(const BendSet& set) const { return places_.data() + set.first_place; }
+  std::vector<Place> make_places(const BendSet& set, const float* inverse_masses) const;
 
   template <bool first>
   void sweep(const LaneView& view);
+  template <class Lanes, bool first, bool in_groups>
+  void solve(const LaneView& view, const BendSet& set, int lane);
+  template <bool first>
+  void solve_groups(const LaneView& view, const BendSet* sets, int n_sets);
+  template <bool first>
+  void solve_rows(const LaneView& view, const BendSet& set);
+  template <class Lanes, bool first, class EdgeTo>
+  void eliminate(const BendSet& set, int lane, float* scratch, const EdgeTo& edge_to);
+  template <class Lanes, bool first, class MoveBy>
+  void substitute(const BendSet& set, int lane, const float* scratch, const MoveBy& move_by);
+  template <class Visit>
+  void visit_errors(const LaneView& view, const Visit& visit) const;
 
-  std::vector<Operation> operations_;
-  std::vector<LaneMembers> members_;
-  std::vector<Block> blocks_;  // one per operation
-  std::vector<OperationStretch> stretches_;
-  std::vector<float> multipliers_;  // x, y, z groups per operation
+  bool is_lane_by_lane_ = false;
+  std::vector<BendChain> chains_;
+  BendSets sets_;
+  std::vector<Place> places_;       // set by set; equal ones share theirs
+  std::vector<float> multipliers_;  // x, y, z groups per place with an element
+  std::vector<float> scratch_;      // three groups per place, of four sets
 };
 
 }  // namespace pleat

@@ -7,14 +7,16 @@
 
 namespace pleat {
 
-/// Projections in the order of the lanes: lines of springs at once, everything else one after the
-/// other. A round is a sweep over all constraints.
+/// Projections in the order of the lanes: the bending of whole threads and lines of springs at
+/// once, everything else one after the other. A round is a sweep over all constraints.
 class LaneProjections final : public Projections {
  public:
   /// h  substep [s]
   LaneProjections(const ClothModel& model, const LaneLayout& layout, SpringLaw law, double h);
 
-  void refresh_pins(const ClothModel&, const float*) override {}
+  void refresh_pins(const ClothModel&, const float* inverse_masses) override {
+    bends_.refresh_pins(inverse_masses);
+  }
   void refresh_rest_lengths(const ClothModel& model) override;
 
   void solve(const LaneView& view, int rounds) override {

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "core/dynamics/position_based/lanes/bend_program.h"
 #include "core/dynamics/position_based/lanes/hanging_program.h"
 #include "core/dynamics/position_based/lanes/lane_projections.h"
 #include "core/dynamics/position_based/levels/attachments.h"
 #include "core/dynamics/position_based/levels/coarse_levels.h"
 #include "core/dynamics/position_based/levels/cycle_acceleration.h"
-#include "core/dynamics/position_based/levels/gathered_bends.h"
 #include "core/dynamics/position_based/levels/gathered_springs.h"
 #include "core/dynamics/position_based/levels/gathered_vertices.h"
 #include "core/dynamics/position_based/levels/strain_correction.h"
@@ -68,11 +68,11 @@ std::string lines_remark(const MethodOptions& options, const LaneLayout& layout)
   return std::string("gauss_seidel in the place of lines, as ") + why;
 }
 
-/// The constraints of a cloth's own mesh, whatever that is, one after the other: springs in sets
-/// that share no vertex, four at a time.
+/// The constraints of a cloth's own mesh, whatever that is: the bending of whole threads at once,
+/// then springs one after the other, in sets that share no vertex, four at a time.
 struct GatheredSweeps {
   GatheredSprings springs;
-  GatheredBends bends;
+  BendProgram bends;
   HangingProgram hanging;
 
   GatheredSweeps(const ClothModel& model, const LaneLayout& layout, SpringLaw law, double h)
@@ -90,15 +90,9 @@ struct GatheredSweeps {
 
   /// Projects each constraint once. The first sweep of a substep starts from multipliers of zero.
   void sweep(GatheredVertices& vertices, const Relaxation& relaxation, bool is_first) {
-    const float* const begins = vertices.begins();
-    float* const moves = vertices.moves();
-    if (is_first) {
-      springs.forget();
-      bends.forget();
-    }
-    bends.sweep(begins, moves,
-                relaxation.smoother == Smoother::sor ? static_cast<float>(relaxation.omega) : 1.0f);
-    springs.sweep(begins, moves, relaxation);
+    if (!bends.empty()) bends.sweep(vertices.lanes(), is_first);
+    if (is_first) springs.forget();
+    springs.sweep(vertices.begins(), vertices.moves(), relaxation);
     if (!hanging.empty()) hanging.sweep(vertices.lanes(), is_first);
   }
 
@@ -109,9 +103,10 @@ struct GatheredSweeps {
   }
 
   double squared_residual(GatheredVertices& vertices) const {
-    const double of_hanging = hanging.squared_residual(vertices.lanes());
-    return of_hanging + springs.squared_residual(vertices.begins(), vertices.moves()) +
-           bends.squared_residual(vertices.begins(), vertices.moves());
+    const LaneView& lanes = vertices.lanes_to_read();
+    return hanging.squared_residual(lanes) +
+           springs.squared_residual(vertices.begins(), vertices.moves()) +
+           bends.squared_residual(lanes);
   }
 };
 
@@ -137,7 +132,7 @@ class CycleProjections final : public Projections {
   }
 
   void refresh_pins(const ClothModel& model, const float* inverse_masses) override {
-    if (gathered_) gathered_->refresh_pins(inverse_masses);
+    lines_ ? lines_->refresh_pins(model, inverse_masses) : gathered_->refresh_pins(inverse_masses);
     std::vector<double> of_vertices;
     for (const int slot : slots_) of_vertices.push_back(inverse_masses[slot]);
     if (options_.level_lengths == LevelLengths::error && hierarchy_.levels.size() > 1) {
@@ -238,11 +233,10 @@ class CycleProjections final : public Projections {
   /// Takes the errors: strains of springs, and bending over the springs' mean length.
   void take_errors() {
     const GatheredSprings& springs = gathered_->springs;
-    const GatheredBends& bends = gathered_->bends;
+    const BendProgram& bends = gathered_->bends;
     errors_.resize(springs.n_strains() + bends.n_errors());
     springs.strains(vertices_.begins(), vertices_.moves(), errors_.data());
-    bends.errors(vertices_.begins(), vertices_.moves(), mean_length_,
-                 errors_.data() + springs.n_strains());
+    bends.errors(vertices_.lanes_to_read(), mean_length_, errors_.data() + springs.n_strains());
   }
 
   MethodOptions options_;

@@ -37,10 +37,15 @@ const float* GatheredVertices::begins() {
 }
 
 const LaneView& GatheredVertices::lanes() {
+  lanes_to_read();
+  has_moves_ = false;
+  return view_;
+}
+
+const LaneView& GatheredVertices::lanes_to_read() {
   if (has_moves_)
     for (std::size_t i = 0; i < moves_.size(); i += 16)
       store(in_lanes(gather<Float4>(&moves_[i], kFour)), view_.moves, static_cast<int>(i / 4));
-  has_moves_ = false;
   return view_;
 }
 

@@ -21,6 +21,8 @@ class GatheredVertices {
   float* moves();
   const float* begins();
   const LaneView& lanes();
+  /// Moves as they are, to be read only.
+  const LaneView& lanes_to_read();
   std::size_t n_numbers() const { return moves_.size(); }  ///< count, of all moves
 
  private:
