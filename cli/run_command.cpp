@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -35,6 +36,7 @@ struct RunSummary {
   std::int64_t largest_crossings = 0;
   int n_frames = 0;
   std::vector<RunWarning> warnings;
+  double unbalanced_share = 0;  // found by the last look; NaN: none came to rest
 };
 
 /// The folder after --dump and the files in it.
@@ -123,7 +125,9 @@ RunSummary run_to_end(Simulation& simulation, Watchers& watchers) {
                   scene.name);
   }
   summary.report = run.report();
+  if (!run.has_ended()) watch.check_end(simulation);
   summary.warnings = watch.warnings();
+  summary.unbalanced_share = watch.unbalanced_share();
   return summary;
 }
 
@@ -177,6 +181,7 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary, Watch
                {"mean_rms_stretch", summary.rms_stretch_sum / n_steps},
                {"largest_stretch", summary.largest_stretch}};
   if (scene.model.tearing) json["n_splits"] = simulation.tear_origins().size();
+  json["unbalanced_share_at_rest"] = number_json(summary.unbalanced_share);
   json["warnings"] = json_warnings(summary.warnings);
   if (const StrainLimitPass* limit = simulation.stepper().strain_limit()) {
     json["strain_limit_sweeps_per_step"] = static_cast<double>(limit->n_sweeps()) / n_steps;
@@ -243,6 +248,8 @@ void print_summary(const Simulation& simulation, const RunSummary& summary, cons
   std::printf("stretch at the end: rms %.3g %%, largest %.3g %%; largest of all %.3g %%\n",
               100 * summary.last_stretch.rms, 100 * summary.last_stretch.largest,
               100 * summary.largest_stretch);
+  if (std::isfinite(summary.unbalanced_share))
+    std::printf("at rest, %.3g %% of the weight is unbalanced\n", 100 * summary.unbalanced_share);
   if (const std::string remark = simulation.stepper().remark(); !remark.empty())
     std::printf("method: %s\n", remark.c_str());
   if (!summary.report.message.empty() && !summary.report.ends_run())
@@ -326,8 +333,9 @@ extern const Command kRunCommand(
                          into this folder, which holds none yet
   --state FILE           write where the cloth is and how fast at the end, to the last digit, for a
                          scene's "start"
-  --check                exit status 1 when there is a warning: the run shows nonsense, or a step
-                         did not converge and left more than a thousandth of its equations
+  --check                exit status 1 when there is a warning: the run shows nonsense, a step did
+                         not converge and left more than a thousandth of its equations, or cloth
+                         rests where its forces do not balance
   --overwrite            remove or replace those of an earlier run
   --drift                account for the energy: what no force explains is the method's own
 )");

@@ -381,16 +381,19 @@ Gap ContactPass::gap_at_end(const Touch& touch, const Vec3& place) const {
   return held_gap(solids_[static_cast<std::size_t>(touch.solid)], touch.vertex, place);
 }
 
-std::vector<ContactPass::Support> ContactPass::supports(const PositionsView& positions,
-                                                        double time) const {
+std::vector<ContactPass::Support> ContactPass::supports(const PositionsView& positions, double time,
+                                                        double within) const {
   std::vector<Support> found;
-  for (const Collider& collider : colliders_) {
+  for (std::size_t k = 0; k < colliders_.size(); ++k) {
+    const Collider& collider = colliders_[k];
     const SweptSolid bare = swept(placed(collider, time), Clearance{}, Vec3::Zero());
     for (Eigen::Index i = 0; i < positions.cols(); ++i) {
       const Clearance held = clearance(collider, VertexId(i));
       const Gap point = gap(bare, positions.col(i));
-      if (point.distance <= std::max(held.at_a, held.at_b) + kTouchDistance)
-        found.push_back({VertexId(i), point.normal, collider.friction});
+      const double height = point.distance - std::max(held.at_a, held.at_b);
+      if (height <= within)
+        found.push_back(
+            {VertexId(i), point.normal, collider.friction, static_cast<int>(k), height});
     }
   }
   return found;

@@ -148,11 +148,14 @@ class ContactPass {
     VertexId vertex;
     Vec3 normal{0, 0, 0};  ///< unit, away from the solid
     double friction = 0;   ///< Coulomb coefficient
+    int solid = -1;        ///< index among colliders()
+    double height = 0;     ///< distance from where the solid holds it [m]; negative below
   };
 
-  /// The vertices that are at a time [s] no further from a solid than it holds them, and
-  /// kTouchDistance; once for each solid. It knows positions alone, and nothing of substeps.
-  std::vector<Support> supports(const PositionsView& positions, double time) const;
+  /// The vertices that are at a time [s] within this height [m] above where a solid holds them;
+  /// once for each solid. It knows positions alone, and nothing of substeps.
+  std::vector<Support> supports(const PositionsView& positions, double time,
+                                double within = kTouchDistance) const;
 
   /// Size of its solids and of the radii of faces, without what it keeps of touches.
   std::size_t bytes() const;

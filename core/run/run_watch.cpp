@@ -134,11 +134,13 @@ double driven_speed(const Simulation& simulation) {
   return speed;
 }
 
-/// A factor where cg gives up; four times as many of what the stepper takes more of, else a step of
-/// a quarter.
+/// A factor where cg gives up; a stepper that solves for equilibrium where rounds are too few for
+/// it; else four times as many of what the stepper takes more of, or a step of a quarter.
 std::vector<SettingHint> hints_for(RunWarning::Kind kind, const Scene& scene) {
   const MethodOptions& method = scene.method;
   std::vector<SettingHint> hints;
+  if (kind == RunWarning::Kind::unbalanced && method.stepper->reads("iterations"))
+    return {{"/method/stepper", steppers::kImplicitEuler.name}};
   const bool is_unsolved =
       kind == RunWarning::Kind::unsolved || kind == RunWarning::Kind::not_converged;
   if (kind == RunWarning::Kind::given_up) return {{"/method/solver", name(SolverKind::supernodal)}};
@@ -152,12 +154,13 @@ std::vector<SettingHint> hints_for(RunWarning::Kind kind, const Scene& scene) {
   return hints;
 }
 
-constexpr std::array<Word<RunWarning::Kind>, 5> kKinds = {
+constexpr std::array<Word<RunWarning::Kind>, 6> kKinds = {
     {{"stretch", RunWarning::Kind::stretch},
      {"speed", RunWarning::Kind::speed},
      {"unsolved", RunWarning::Kind::unsolved},
      {"not_converged", RunWarning::Kind::not_converged},
-     {"given_up", RunWarning::Kind::given_up}}};
+     {"given_up", RunWarning::Kind::given_up},
+     {"unbalanced", RunWarning::Kind::unbalanced}}};
 
 }  // namespace
 
@@ -178,6 +181,9 @@ std::string sentence(const RunWarning& warning) {
       return since + " on, steps did not converge and left " + left;
     case RunWarning::Kind::given_up:
       return since + " on, the solver gave up in some steps, and a factor solved them in its place";
+    case RunWarning::Kind::unbalanced:
+      return since + " on, cloth at rest was held up by too few rounds, not by the cloth: " +
+             three_digits(100 * warning.value) + " % of its weight was unbalanced";
   }
   return "";
 }
@@ -226,7 +232,7 @@ std::vector<RunWarning> read_warnings(const JsonReader& reader) {
   return warnings;
 }
 
-RunWatch::RunWatch(const Simulation& simulation) {
+RunWatch::RunWatch(const Simulation& simulation) : rest_(simulation) {
   const ClothModel& model = simulation.model();
   const State& state = simulation.state();
   const double weight = model.masses.sum() * model.gravity.norm();
@@ -250,6 +256,22 @@ void RunWatch::check(const Simulation& simulation, const SolveReport& step) {
   check_stretch(simulation);
   check_speed(simulation);
   check_report(simulation, step);
+  tell_unbalanced(simulation, rest_.after_step(simulation));
+}
+
+void RunWatch::check_end(const Simulation& simulation) {
+  tell_unbalanced(simulation, rest_.at_end(simulation));
+}
+
+double RunWatch::unbalanced_share() const {
+  return rest_.last() ? rest_.last()->share : std::numeric_limits<double>::quiet_NaN();
+}
+
+void RunWatch::tell_unbalanced(const Simulation& simulation,
+                               const std::optional<RestWatch::Look>& look) {
+  if (!look || look->share <= look->bound) return;
+  warn(simulation,
+       {RunWarning::Kind::unbalanced, look->time, VertexId(0), look->share, look->bound, {}});
 }
 
 void RunWatch::check_stretch(const Simulation& simulation) {

@@ -61,6 +61,7 @@ void SampledRun::step() {
   if (watch_) watch_->check(simulation_, report);
   if (sampling) take_samples(begin_, time_begin);
   if (ledger_) ledger_->record_step();
+  if (watch_ && done()) watch_->check_end(simulation_);
 }
 
 void SampledRun::advance(double budget) {

@@ -73,6 +73,10 @@ class SampledRun {
   std::vector<RunWarning> warnings() const {
     return watch_ ? watch_->warnings() : std::vector<RunWarning>();
   }
+  /// See RunWatch, after the last sample; NaN without it and where nothing came to rest.
+  double unbalanced_share() const {
+    return watch_ ? watch_->unbalanced_share() : std::numeric_limits<double>::quiet_NaN();
+  }
 
  private:
   void step();

@@ -37,6 +37,7 @@ constexpr NumberField kNumberFields[] = {
     {"residual", &BenchRow::residual},
     {"iterations_per_step", &BenchRow::iterations_per_step},
     {"energy_drift", &BenchRow::energy_drift},
+    {"unbalanced_share", &BenchRow::unbalanced_share},
 };
 
 struct CountField {
@@ -71,6 +72,7 @@ struct NumberColumn {
   const char* title;
   double BenchRow::*value;
   double factor;
+  bool is_optional = false;  ///< left out where no row has it
 };
 constexpr NumberColumn kNumberColumns[] = {
     {"ms per frame", &BenchRow::ms_per_frame, 1},
@@ -85,6 +87,7 @@ constexpr NumberColumn kNumberColumns[] = {
     {"rms stretch %", &BenchRow::rms_stretch, 1e2},
     {"largest %", &BenchRow::largest_stretch, 1e2},
     {"residual", &BenchRow::residual, 1},
+    {"unbalanced %", &BenchRow::unbalanced_share, 1e2, true},
 };
 
 /// A number with three significant digits, or a dash.
@@ -152,9 +155,20 @@ std::vector<Part> timed_parts(std::span<const BenchRow> rows) {
   return parts;
 }
 
+std::vector<NumberColumn> known_columns(std::span<const BenchRow> rows) {
+  std::vector<NumberColumn> columns;
+  for (const NumberColumn& column : kNumberColumns) {
+    const auto has = [&](const BenchRow& row) { return std::isfinite(row.*column.value); };
+    if (!column.is_optional || std::any_of(rows.begin(), rows.end(), has))
+      columns.push_back(column);
+  }
+  return columns;
+}
+
 /// The columns of a table that are not the same in all.
 struct VaryingColumns {
   std::vector<std::string> pointers;
+  std::vector<NumberColumn> numbers;
   std::vector<Part> parts;
 };
 
@@ -162,11 +176,11 @@ std::string table_head(const VaryingColumns& varying) {
   std::string head = "| front | method | level | ";
   for (const std::string& pointer : varying.pointers) head += cell(cut(pointer));
   head += "vertices | ";
-  for (const NumberColumn& column : kNumberColumns) head += cell(column.title);
+  for (const NumberColumn& column : varying.numbers) head += cell(column.title);
   for (const Part part : varying.parts) head += cell(std::string(name(part)) + " ms");
   head += "process peak MB | status |\n|";
   const std::size_t n_columns =
-      6 + varying.pointers.size() + std::size(kNumberColumns) + varying.parts.size();
+      6 + varying.pointers.size() + varying.numbers.size() + varying.parts.size();
   for (std::size_t c = 0; c < n_columns; ++c) head += "---|";
   return head + "\n";
 }
@@ -181,7 +195,7 @@ std::string table_line(const BenchRow& row, bool is_on_front, const VaryingColum
                      cell(std::to_string(row.level));
   for (const std::string& pointer : varying.pointers) line += value_cell(row, pointer);
   line += cell(std::to_string(row.n_vertices));
-  for (const NumberColumn& column : kNumberColumns)
+  for (const NumberColumn& column : varying.numbers)
     line += cell(short_number(column.factor * row.*column.value));
   for (const Part part : varying.parts)
     line += cell(short_number(row.parts_ms[static_cast<std::size_t>(part)]));
@@ -309,7 +323,7 @@ std::string setting_phrase(const BenchRow& row) {
 }
 
 std::string markdown_table(std::span<const BenchRow> rows) {
-  const VaryingColumns varying{varying_pointers(rows), timed_parts(rows)};
+  const VaryingColumns varying{varying_pointers(rows), known_columns(rows), timed_parts(rows)};
   std::vector<bool> on_front(rows.size(), false);
   for (const std::size_t i : front_of(rows)) on_front[i] = true;
   std::string table = table_head(varying);

@@ -57,6 +57,8 @@ struct BenchRow {
   double residual = kUnknown;
   double iterations_per_step = kUnknown;
   double energy_drift = kUnknown;  ///< unexplained energy over the largest kinetic energy
+  /// See RunWatch, at the end; unknown for cloth that has not come to rest.
+  double unbalanced_share = kUnknown;
 
   ReferenceLabel reference;
   std::string status = "ok";  ///< or the name of a SolveStatus, or "refused"

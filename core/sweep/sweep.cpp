@@ -165,6 +165,7 @@ BenchRow Sweep::measured_row() const {
   }
   if (!run_->failed()) put_errors(row);
   row.warnings = run_->warnings();
+  row.unbalanced_share = run_->unbalanced_share();
   row.process_peak_memory = process_peak_memory();
   return row;
 }

@@ -43,7 +43,17 @@ std::vector<RunWarning> warnings_of(const Scene& scene, double duration) {
   RunWatch watch(simulation);
   while (simulation.time() < duration && !run.has_ended()) watch.check(simulation, run.step());
   CHECK_FALSE(run.has_ended());
+  watch.check_end(simulation);
   return watch.warnings();
+}
+
+/// The scene with what a warning says to try.
+Scene advised(const Scene& scene, const RunWarning& warning) {
+  Json json = parse_json(write_scene(scene));
+  std::vector<SceneOverride> overrides;
+  for (const SettingHint& hint : warning.hints) overrides.push_back({hint.pointer, hint.value});
+  override_scene(json, overrides);
+  return read_scene(JsonReader(json), fabric_library());
 }
 
 bool has(const std::vector<RunWarning>& warnings, RunWarning::Kind kind) {
@@ -116,12 +126,7 @@ TEST_CASE("run_watch: a hint taken again and again ends the warning", "[run]") {
   for (auto warnings = warnings_of(scene, 1); has(warnings, RunWarning::Kind::stretch);
        warnings = warnings_of(scene, 1)) {
     REQUIRE(++n_hints <= 4);
-    Json json = parse_json(write_scene(scene));
-    std::vector<SceneOverride> overrides;
-    for (const SettingHint& hint : warnings.front().hints)
-      overrides.push_back({hint.pointer, hint.value});
-    override_scene(json, overrides);
-    scene = read_scene(JsonReader(json), fabric_library());
+    scene = advised(scene, warnings.front());
   }
   CHECK(n_hints > 0);
 }
@@ -224,11 +229,12 @@ TEST_CASE("run_watch: warnings read back to what was written", "[run]") {
   const std::vector<RunWarning> warnings = {
       {RunWarning::Kind::stretch, 0.4, VertexId(12), 1e15, 0.35, {{"/method/substeps", 4}}},
       {RunWarning::Kind::speed, 0.5, VertexId(3), kInfinity, 7, {{"/method/step_s", 0.01}}},
-      {RunWarning::Kind::unsolved, 0.1, VertexId(0), 1e-3, 0.5, {}}};
+      {RunWarning::Kind::unsolved, 0.1, VertexId(0), 1e-3, 0.5, {}},
+      {RunWarning::Kind::unbalanced, 2, VertexId(0), 0.34, 0.05, {}}};
   const std::string text = json_warnings(warnings).dump();
   const Json parsed = parse_json(text);
   const std::vector<RunWarning> read = read_warnings(JsonReader(parsed));
-  REQUIRE(read.size() == 3);
+  REQUIRE(read.size() == 4);
   CHECK(read[1].value == kInfinity);
   CHECK(sentence(read[0]) == sentence(warnings[0]));
   CHECK(advice(read[1]) == advice(warnings[1]));
@@ -274,6 +280,14 @@ TEST_CASE("run_watch: what did not converge is told as that", "[run]") {
   const RunWarning warning{RunWarning::Kind::not_converged, 0.1, VertexId(0), 1e-5, 1e-3, {}};
   CHECK(sentence(warning) ==
         "from 0.1 s on, steps did not converge and left 0.001 % of their equations unsolved");
+}
+
+TEST_CASE("run_watch: cloth that rounds hold up is told by its share of the weight", "[run]") {
+  const RunWarning warning{RunWarning::Kind::unbalanced, 2, VertexId(0), 0.34, 0.05, {}};
+  CHECK_FALSE(warning.is_nonsense());
+  CHECK(sentence(warning) ==
+        "from 2 s on, cloth at rest was held up by too few rounds, not by the cloth: 34 % of its "
+        "weight was unbalanced");
 }
 
 TEST_CASE("run_watch: a warning names its place, its bound and what to try", "[run]") {

@@ -39,6 +39,7 @@ BenchRow measured_row() {
   row.residual = 1e-3;
   row.iterations_per_step = 7;
   row.energy_drift = 0.25;
+  row.unbalanced_share = 0.0625;
   row.n_unresolved_contacts = 2;
   row.target = "native";
   row.commit = "abc";
@@ -71,6 +72,7 @@ TEST_CASE("bench_row: a row reads back to what was written", "[sweep]") {
   CHECK(read.rms_stretch == row.rms_stretch);
   CHECK(read.position_error_95 == row.position_error_95);
   CHECK(read.energy_drift == row.energy_drift);
+  CHECK(read.unbalanced_share == row.unbalanced_share);
   CHECK(read.n_unresolved_contacts == row.n_unresolved_contacts);
   CHECK(read.process_peak_memory == row.process_peak_memory);
   CHECK(json_bench_row(read).dump() == line);

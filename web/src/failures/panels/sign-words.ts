@@ -10,6 +10,7 @@ export const SIGN_TITLES: Record<Sign, string> = {
   unsolved: 'equations left unsolved',
   not_converged: 'did not converge',
   given_up: 'a solver gave up',
+  unbalanced: 'at rest out of balance',
   ended: 'numbers without end',
 };
 

@@ -1,15 +1,15 @@
 /** A sign in a run that its scene cannot explain, or a step that did not converge (docs/methods/plausibility.md). */
 export interface RunWarning {
-  kind: 'stretch' | 'speed' | 'unsolved' | 'not_converged' | 'given_up';
+  kind: 'stretch' | 'speed' | 'unsolved' | 'not_converged' | 'given_up' | 'unbalanced';
   /** When it was first seen. */
   time_s: number;
   vertex: number;
-  /** Worst value: a strain, a speed [m/s] or a share of the equations; null beyond all numbers. */
+  /** Worst value: a strain, a speed [m/s], a share of the equations or of the weight; null beyond all numbers. */
   value: number | null;
   /** Value that the scene explains. */
   bound: number | null;
   sentence: string;
-  /** Else all that is told is that a step did not converge. */
+  /** Else the cloth moves as cloth may: a step did not converge, say. */
   is_nonsense: boolean;
   /** Values that may help, by their JSON pointers into the scene. */
   hints: Record<string, number | string>;
