@@ -1,21 +1,14 @@
 // ./pleat bench same_cloth (--help tells the options)
-// Whether every stepper comes to the same cloth: scenes whose outcome is known, with each of them at
-// its defaults. A row is right, or the run warns of it, or it is wrong without a word.
+// Whether every stepper comes to the same cloth: scenes whose outcome is known, with each at its
+// defaults. A row is right, or the run warns of it, or it is wrong without a word.
 import { runParts } from './parts/bench-parts.mjs';
 import { markdown } from './parts/bench-rows.mjs';
 import { beads, largeSheets, sheets } from './parts/same-cloth-ball.mjs';
 import { groupGoals, overallGoals } from './parts/same-cloth-goals.mjs';
-import {
-  fineSwatches,
-  grips,
-  inclines,
-  slides,
-  slivers,
-  swatchRows,
-  terminals,
-} from './parts/same-cloth-motion.mjs';
+import { grips, inclines, slides, terminals } from './parts/same-cloth-motion.mjs';
 import { cantilevers, curtains, flags, sags } from './parts/same-cloth-rest.mjs';
 import { counts, reasons, runCases, steppers, verdictTable } from './parts/same-cloth-runs.mjs';
+import { fineSwatches, slivers, swatchRows } from './parts/same-cloth-swatch.mjs';
 
 /** How many rows of each stepper are right. */
 function countTable(rows, names) {

@@ -1,7 +1,7 @@
 // A smooth or rough ball, and what slides off it from near its top: one face, and sheets.
 import { tell } from './bench-options.mjs';
 import { explicitOnes } from './same-cloth-runs.mjs';
-import { fabricNumber, withStepper } from './same-cloth-rest.mjs';
+import { fabricNumber, meanOf, withStepper } from './same-cloth-scenes.mjs';
 import { beadOnBall, sheetOnBall } from './sliding-sheet.mjs';
 
 const kRadius = 0.25; // [m]
@@ -15,7 +15,10 @@ const reachOf = (cell) => {
   return half + Math.hypot(kRadius, corner);
 };
 
-/** A square of n x n cells, tangent to the ball at the angle `begin` off its top, its middle `high` off the centre. */
+/**
+ * A square of n x n cells, tangent to the ball at the angle `begin` off its top, its middle `high`
+ * off the centre.
+ */
 function scene({ n, cell, begin, high, mu, seconds }) {
   const [s, c] = [Math.sin(begin), Math.cos(begin)];
   const half = (n * cell) / 2;
@@ -48,11 +51,9 @@ export function placesOf({ cloth: { sheet } }) {
   });
 }
 
-const meanOf = (places) =>
-  [0, 1, 2].map((k) => places.reduce((sum, place) => sum + place[k], 0) / places.length);
 const apart = (a, b) => Math.hypot(...a.map((x, k) => x - b[k]));
 
-/** Cases of one scene at each of `rates` [steps per second], held against the mean place `right`. */
+/** Cases of one scene at each of `rates` [steps per second], against the mean place `right`. */
 function casesOf(name, made, right, source, rates, leftOut = {}) {
   const way = apart(right, meanOf(placesOf(made)));
   return rates.map((rate) => ({
@@ -113,10 +114,21 @@ export function ownEnd(n, mu) {
     bendWeft: atRest('weft'),
   };
   const step = kStepOfACell * cell;
-  return sheetOnBall({ positions, n, cell, fabric, reach: reachOf(cell), mu, seconds: kSeconds, step });
+  return sheetOnBall({
+    positions,
+    n,
+    cell,
+    fabric,
+    reach: reachOf(cell),
+    mu,
+    seconds: kSeconds,
+    step,
+  });
 }
 
-/** Cases of n x n cells, against 12 x 12 of our own, which end within 0.1 % of the way of 16 x 16. */
+/**
+ * Cases of n x n cells, against 12 x 12 of our own, which end within 0.1 % of the way of 16 x 16.
+ */
 function sheetCases(n, rates, leftOut) {
   return kFrictions.flatMap((mu) => {
     tell(`own integrator, mu ${mu}`);

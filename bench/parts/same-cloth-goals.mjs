@@ -11,7 +11,8 @@ function cantileverGoals(rows) {
   const kMost = 3; // degrees
   return ['multigrid', 'projective'].map((stepper) => {
     const its = rows.filter(
-      (row) => row.stepper === stepper && row.case.startsWith('cantilever of 2 bending lengths, 5 mm'),
+      (row) =>
+        row.stepper === stepper && row.case.startsWith('cantilever of 2 bending lengths, 5 mm'),
     );
     return atMost(`cantilever_2_lengths_5_mm_${stepper}_degrees`, largest(its.map(off)), kMost);
   });
@@ -75,7 +76,8 @@ const kQuietGroups = ['terminal', 'incline', 'slide']; // free fall, slopes, res
 export function overallGoals(rows) {
   const wrong = rows.filter(({ verdict }) => verdict === 'WRONG').length;
   const alarms = rows.filter(
-    ({ group, verdict, told }) => kQuietGroups.includes(group) && verdict === 'ok' && told.length > 0,
+    ({ group, verdict, told }) =>
+      kQuietGroups.includes(group) && verdict === 'ok' && told.length > 0,
   ).length;
   return [
     atMost('silent_wrong_rows', wrong, 0),

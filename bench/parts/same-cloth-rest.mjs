@@ -1,29 +1,8 @@
-// Cloth at rest whose shape is known: a strip that droops, a sheet between two rails, a limp curtain in
-// wind, and a flag that the air brakes.
-import { explicitOnes } from './same-cloth-runs.mjs';
+// Cloth at rest whose shape is known: a strip that droops, a sheet between two rails, a limp
+// curtain in wind, and a flag that the air brakes.
 import { reference } from './command.mjs';
-import { changed, fabricsText } from './assets.mjs';
-
-export const kGravity = 9.81; // [m/s^2], a scene's default
-export const kAirDensity = 1.2; // [kg/m^3], likewise
-
-/** A number of the library's fabric of that name. */
-export function fabricNumber(name, key) {
-  const found = JSON.parse(fabricsText()).fabrics.find(({ name_en }) => name_en === name);
-  return found[key].value;
-}
-
-export const fabricNames = () => JSON.parse(fabricsText()).fabrics.map(({ name_en }) => name_en);
-
-/**
- * The scene with that stepper at its defaults. Dampers ask of `explicit` and `rk4` for substeps of
- * 1e-8 s: they run without, where the outcome does not depend on them.
- */
-export function withStepper(scene, stepper, method = {}) {
-  const result = { ...scene, method: { ...method, stepper } };
-  if (!explicitOnes.includes(stepper)) return result;
-  return changed(result, { '/fabric/overrides/damping_ratio': 0 });
-}
+import { explicitOnes } from './same-cloth-runs.mjs';
+import { fabricNumber, kAirDensity, kGravity, withStepper } from './same-cloth-scenes.mjs';
 
 const mean = (values) => values.reduce((sum, value) => sum + value, 0) / values.length;
 const degrees = (angle) => (180 * angle) / Math.PI;
@@ -37,17 +16,15 @@ export function chordAngle(positions, columns = kStripColumns) {
   const row = (r) => positions.slice(r * (columns + 1), (r + 1) * (columns + 1));
   const middle = (places, k) => mean(places.map((place) => place[k]));
   const [clamp, tip] = [row(1), positions.slice(-columns - 1)];
-  const [out, down] = [
-    middle(tip, 2) - middle(clamp, 2),
-    middle(clamp, 1) - middle(tip, 1),
-  ];
+  const [out, down] = [middle(tip, 2) - middle(clamp, 2), middle(clamp, 1) - middle(tip, 1)];
   return degrees(Math.atan2(down, out));
 }
 
-/** A strip along z, its first two rows held, `lengths` bending lengths long or so, in whole cells. */
+/** A strip along z, its first two rows held, `lengths` bending lengths or so in whole cells. */
 export function cantileverScene(lengths, cell) {
   const cells = Math.max(1, Math.round((lengths * kBendingLength) / cell));
-  const rigidity = kGravity * fabricNumber('linen', 'areal_density_kg_per_m2') * kBendingLength ** 3;
+  const rigidity =
+    kGravity * fabricNumber('linen', 'areal_density_kg_per_m2') * kBendingLength ** 3;
   return {
     name: 'cantilever',
     cloth: {
@@ -84,7 +61,9 @@ function cantilever(lengths, cell, isStraight) {
   const shape = triples(positions_m);
   const right = chordAngle(shape);
   const inAir = { ...scene, world: { air: {} } };
-  const begun = isStraight ? { ...inAir, duration_s: 10 } : { ...inAir, start: { positions_m: shape } };
+  const begun = isStraight
+    ? { ...inAir, duration_s: 10 }
+    : { ...inAir, start: { positions_m: shape } };
   const start = isStraight ? 'from straight' : 'from rest';
   return {
     name: `cantilever of ${lengths} bending lengths, ${1e3 * cell} mm, ${start}`,
@@ -194,7 +173,8 @@ function sag(cells, isFlat) {
   };
 }
 
-export const sags = () => [20, 40].flatMap((cells) => [false, true].map((flat) => sag(cells, flat)));
+export const sags = () =>
+  [20, 40].flatMap((cells) => [false, true].map((flat) => sag(cells, flat)));
 
 /**
  * A limp curtain in steady wind U along z hangs in a plane, as drag and weight have one direction
@@ -213,27 +193,27 @@ export function curtains() {
         stepper === 'rk4' && cell < 5e-2
           ? 'two minutes, the same as explicit'
           : withStepper(
-          {
-            name: 'limp curtain',
-            cloth: {
-              sheet: {
-                width_m: 0.5,
-                height_m: 0.5,
-                columns: n,
-                rows: n,
-                origin_m: [0, 1, 0],
-                warp_direction: [0, -Math.cos(angle), Math.sin(angle)],
-                weft_direction: [1, 0, 0],
+              {
+                name: 'limp curtain',
+                cloth: {
+                  sheet: {
+                    width_m: 0.5,
+                    height_m: 0.5,
+                    columns: n,
+                    rows: n,
+                    origin_m: [0, 1, 0],
+                    warp_direction: [0, -Math.cos(angle), Math.sin(angle)],
+                    weft_direction: [1, 0, 0],
+                  },
+                },
+                fabric: { name: 'fine cotton' },
+                model: { bending: 'none' },
+                pins: [{ part: 'upper_edge' }],
+                world: { air: { wind: { velocity_m_per_s: [0, 0, wind] } } },
+                duration_s: 5,
               },
-            },
-            fabric: { name: 'fine cotton' },
-            model: { bending: 'none' },
-            pins: [{ part: 'upper_edge' }],
-            world: { air: { wind: { velocity_m_per_s: [0, 0, wind] } } },
-            duration_s: 5,
-          },
-          stepper,
-        ),
+              stepper,
+            ),
       measures: [
         {
           of: 'angle',
@@ -254,16 +234,15 @@ export function curtains() {
 
 /**
  * Air brakes by the square of the speed: with M u^2/2 the kinetic energy, M d(u^2/2)/dt is at most
- * -1/2 rho C A u^3, as the mean cube is no less than the cube of the mean square's root. That leaves
- * u = 2 W/(rho C t), whatever the start. C is the smaller coefficient, that along the cloth, as folds
- * swing in their plane too.
+ * -1/2 rho C A u^3, as the mean cube is no less than the cube of the mean square's root. That
+ * leaves u = 2 W/(rho C t), whatever the start. C is the smaller coefficient, that along the
+ * cloth, as folds swing in their plane too.
  */
 export function flags() {
   const [kSeconds, kColumns, kRows] = [40, 12, 8];
   const kDragAlong = 0.1; // a scene's default
   const bound =
-    (2 * fabricNumber('linen', 'areal_density_kg_per_m2')) /
-    (kAirDensity * kDragAlong * kSeconds);
+    (2 * fabricNumber('linen', 'areal_density_kg_per_m2')) / (kAirDensity * kDragAlong * kSeconds);
   const at = (i) => [i % (kColumns + 1), Math.floor(i / (kColumns + 1))];
   const all = Array.from({ length: (kColumns + 1) * (kRows + 1) }, (_, i) => at(i));
   const scene = {

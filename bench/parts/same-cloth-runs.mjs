@@ -15,7 +15,8 @@ export const explicitOnes = ['explicit', 'rk4'];
 
 /**
  * A scene's end: its metrics, places and velocities as triples (none after a run that the numbers
- * ended), root of the mean square of the speed by the kinetic energy; or the sentence by which the scene is refused.
+ * ended), root of the mean square of the speed by the kinetic energy; or the sentence by which the
+ * scene is refused.
  */
 function endOf(scene) {
   return inFolder((folder) => {
@@ -25,7 +26,8 @@ function endOf(scene) {
       const { stdout } = ran(['run', scene, '--json', '--drift', '--state', state], 'pipe');
       const metrics = JSON.parse(stdout);
       const seconds = (performance.now() - begin) / 1e3;
-      if (!existsSync(state)) return { metrics, seconds, positions: [], velocities: [], speed: Number.NaN };
+      if (!existsSync(state))
+        return { metrics, seconds, positions: [], velocities: [], speed: Number.NaN };
       const { positions_m, velocities_m_per_s } = JSON.parse(readFileSync(state, 'utf8'));
       const still = positions_m.map(() => [0, 0, 0]);
       return {
@@ -44,7 +46,7 @@ function endOf(scene) {
 
 const kSaysNothingOfTheResult = ['given_up']; // solved all the same
 
-/** Kinds of warnings by which a run says that its result is off; its status where that is not "ok". */
+/** Kinds of warnings by which a run says that its result is off, and its status unless "ok". */
 export function toldOf({ status, warnings }) {
   const kinds = warnings.map(({ kind }) => kind);
   const told = kinds.filter((kind) => !kSaysNothingOfTheResult.includes(kind));
@@ -80,7 +82,8 @@ function rowsOf(one, stepper) {
   if (typeof scene === 'string') return named.map((row) => without(row, 'left out', scene));
   tell(`${one.name}, ${stepper}`);
   const end = endOf({ ...scene, record: { format: 'none' } });
-  if (end.refused) return named.map((row) => without(row, 'refused', shortened(end.refused, stepper)));
+  if (end.refused)
+    return named.map((row) => without(row, 'refused', shortened(end.refused, stepper)));
   const told = toldOf(end.metrics);
   return named.map((row, i) => {
     const value = end.positions.length ? one.measures[i].value(end) : Number.NaN;

@@ -118,7 +118,9 @@ export function sheetOnBall({ positions, n, cell, fabric, reach, mu, seconds, st
       meetBall(x, v, i, h, reach, mu);
     }
   }
-  return [0, 1, 2].map((k) => x.reduce((sum, c, i) => (i % 3 === k ? sum + c : sum), 0) / mass.length);
+  return [0, 1, 2].map(
+    (k) => x.reduce((sum, c, i) => (i % 3 === k ? sum + c : sum), 0) / mass.length,
+  );
 }
 
 /** Moves a vertex by its velocity, on or outside of the ball. */
