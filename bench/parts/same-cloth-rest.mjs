@@ -55,6 +55,21 @@ const triples = (values) =>
 /** Degrees that a chord may be off: two cells of 25 mm in `implicit` at rest are by 1.2. */
 const chordTolerance = (angle, cell) => Math.min(3, Math.max(0.5 + cell / 0.025, 0.07 * angle));
 
+/**
+ * The shape with its rows a cell apart along the same chords: coarse rows of an elastica are nearer
+ * than that, and cloth that begins compressed swings.
+ */
+export function unstretched(shape, cell, columns = kStripColumns) {
+  const line = columns + 1;
+  const places = shape.map((place) => [...place]);
+  for (let i = line; i < shape.length; ++i) {
+    const way = shape[i].map((x, k) => x - shape[i - line][k]);
+    const longer = cell / Math.hypot(...way);
+    places[i] = places[i - line].map((x, k) => x + longer * way[k]);
+  }
+  return places;
+}
+
 function cantilever(lengths, cell, isStraight) {
   const scene = cantileverScene(lengths, cell);
   const [{ positions_m }] = reference(scene, 'closed_form', [1]).samples;
@@ -63,7 +78,7 @@ function cantilever(lengths, cell, isStraight) {
   const inAir = { ...scene, world: { air: {} } };
   const begun = isStraight
     ? { ...inAir, duration_s: 10 }
-    : { ...inAir, start: { positions_m: shape } };
+    : { ...inAir, start: { positions_m: unstretched(shape, cell) } };
   const start = isStraight ? 'from straight' : 'from rest';
   return {
     name: `cantilever of ${lengths} bending lengths, ${1e3 * cell} mm, ${start}`,

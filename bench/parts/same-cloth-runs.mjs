@@ -154,14 +154,16 @@ export function counts(rows, stepper) {
   };
 }
 
-/** Why steppers were left out or refused, a line for each case and reason. */
+/** Why steppers were left out or refused, and of how many rows: a line for each reason. */
 export function reasons(rows) {
   const absent = rows.filter(({ verdict }) => verdict === 'left out' || verdict === 'refused');
-  const of = ({ verdict, case: name, reason }) => `of ${name} ${verdict}: ${reason}`;
-  return [...new Set(absent.map(of))]
+  const why = ({ verdict, reason }) => `${verdict}, ${reason}`;
+  return [...new Set(absent.map(why))]
     .map((text) => {
-      const whose = absent.filter((row) => of(row) === text).map(({ stepper }) => stepper);
-      return `${[...new Set(whose)].join(', ')} ${text}`;
+      const its = absent.filter((row) => why(row) === text);
+      const names = [...new Set(its.map(({ stepper }) => stepper))];
+      const having = (name) => its.filter(({ stepper }) => stepper === name).length;
+      return `${text}: ${names.map((name) => `${name} ${having(name)}`).join(', ')}`;
     })
     .join('\n');
 }

@@ -7,6 +7,7 @@ import {
   catenaryPoint,
   catenarySag,
   chordAngle,
+  unstretched,
 } from '../../../bench/parts/same-cloth-rest.mjs';
 import {
   counts,
@@ -110,6 +111,12 @@ describe('scenes of known cloth', () => {
       cloth: { sheet: { ...cloth.sheet, warp_direction: [0, -Math.sin(0.7), Math.cos(0.7)] } },
     });
     expect(chordAngle(down)).toBeCloseTo((180 * 0.7) / Math.PI, 9);
+    const shorter = down.map((place) => place.map((x) => 0.9 * x));
+    const apart = unstretched(shorter, 5e-3).map((place, i) =>
+      Math.hypot(...place.map((x, k) => x - 0.9 * down[0][k] - (down[i][k] - down[0][k]))),
+    );
+    const across = cloth.sheet.width_m / 10; // columns are as near as they were
+    expect(Math.max(...apart)).toBeCloseTo(across, 9);
   });
 
   it('have a sheet that touches the ball in its middle', () => {
@@ -181,7 +188,7 @@ describe('verdicts', () => {
       share: 0.5,
     });
     expect(verdictTable(rows, ['xpbd', 'pbd'])).toMatch(/\| a: c \| 1 ± 0.1 m \| WRONG 2 +\| - /);
-    expect(reasons(rows)).toBe('xpbd of a left out: cost');
+    expect(reasons(rows)).toBe('left out, cost: xpbd 1');
   });
 
   it('are goals: none wrong without a word, and the shares of right rows', () => {
