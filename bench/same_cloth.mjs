@@ -17,7 +17,7 @@ function countTable(rows, names) {
   return markdown(columns, lines);
 }
 
-/** What a group has found: its table, how many rows of each stepper are right, and its goals. */
+/** Table of a group, how many of its rows are right with each stepper, and its goals. */
 function found(group, rows, names) {
   const absent = reasons(rows);
   const texts = [verdictTable(rows, names), countTable(rows, names), absent];

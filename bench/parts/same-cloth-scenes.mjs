@@ -1,4 +1,4 @@
-// What scenes of known cloth are made of, and what is measured at their end.
+// Pieces of scenes of known cloth, and measures of their ends.
 import { changed, fabricsText } from './assets.mjs';
 import { explicitOnes } from './same-cloth-runs.mjs';
 

@@ -1,4 +1,4 @@
-// What slides off a ball, computed here: a bead, and a sheet of springs in small explicit steps.
+// Ways off a ball that are computed here: of a bead, and of a sheet of springs in small steps.
 // Neither shares code with the core; constants of springs are those of docs/methods/springs.md.
 
 /**
