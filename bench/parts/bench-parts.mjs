@@ -53,6 +53,11 @@ async function tellParts(parts, names, file, settings) {
     goals.push(...part.goals);
     file.write(rows);
   }
+  const all = settings.overall?.(rows);
+  if (all) {
+    console.log(`${all.text}\n`);
+    goals.push(...all.goals);
+  }
   for (const { line } of goals) console.log(line);
   return goals;
 }
@@ -66,12 +71,13 @@ async function tellParts(parts, names, file, settings) {
  * more: {'--name VALUE': meaning}, options of this bench alone
  * isScaled: whether the yardstick is timed and parts are repeated
  * most: how many words it takes beside options
+ * overall: (rows of all parts) => {text, goals}, told after them
  */
 export async function runParts(
   bench,
   purpose,
   parts,
-  { more = {}, isScaled = true, most = 0 } = {},
+  { more = {}, isScaled = true, most = 0, overall } = {},
 ) {
   try {
     const names = Object.keys(parts);
@@ -86,7 +92,7 @@ export async function runParts(
     for (const name of wanted) oneOf('--only', name, names);
     const file = rowsFile(options.json);
     const scale = isScaled ? await machineScale(repeat) : 1;
-    const goals = await tellParts(parts, wanted, file, { repeat, scale, options });
+    const goals = await tellParts(parts, wanted, file, { repeat, scale, options, overall });
     if (options.check && goals.some(({ ok }) => !ok)) process.exitCode = 1;
   } catch (error) {
     if (!(error instanceof BadInput)) throw error;

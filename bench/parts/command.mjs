@@ -51,12 +51,12 @@ export const withFiles = (words, work) =>
 
 /**
  * Exit status and output; words as of withFiles. Status 1 is an answer too: a run that ended early,
- * or a check that failed. Bad input has been told by the command itself.
+ * or a check that failed. Bad input has been told by the command itself, or is by `stderr` "pipe".
  */
 export function ran(words, stderr = 'inherit') {
   const options = { encoding: 'utf8', maxBuffer: kMaxOutput, stdio: ['ignore', 'pipe', stderr] };
   const run = withFiles(words, (texts) => spawnSync(command, texts, options));
-  if (run.status === 2) throw new BadInput('');
+  if (run.status === 2) throw new BadInput(run.stderr?.trim() ?? '');
   if (run.error || run.status > 1 || run.status === null)
     throw run.error ?? new Error(`pleat ${words[0]}: exit status ${run.status ?? run.signal}`);
   return run;
