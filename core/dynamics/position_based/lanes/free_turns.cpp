@@ -18,6 +18,11 @@ constexpr double kLeastSteepness = 0.7;
 /// straight threads.
 constexpr double kLeastInertia = 1e-6;
 
+bool stays(const Motion& motion) {
+  return motion.kind == Motion::Kind::hold ||
+         (motion.kind != Motion::Kind::follow && motion.offset.isZero(0));
+}
+
 /// True where springs and bending elements join all vertices.
 bool is_one_piece(const ClothModel& model) {
   std::vector<int> parents(static_cast<std::size_t>(model.n_vertices()));
@@ -53,10 +58,9 @@ bool is_one_piece(const ClothModel& model) {
 
 void FreeTurns::refresh(const ClothModel& model, const float* inverse_masses) {
   axes_ = Axes::none;
-  const bool holds_still = std::all_of(model.pins.begin(), model.pins.end(), [](const Pin& pin) {
-    return pin.motion.kind == Motion::Kind::hold;
-  });
-  if (!holds_still || !is_one_piece(model)) return;
+  const bool pins_stay = std::all_of(model.pins.begin(), model.pins.end(),
+                                     [](const Pin& pin) { return stays(pin.motion); });
+  if (!pins_stay || !is_one_piece(model)) return;
   is_held_ = !model.pins.empty();
   Axes axes = Axes::all;
   if (is_held_) {

@@ -13,15 +13,15 @@
 namespace pleat {
 namespace {
 
-constexpr double kStep = 1e-3;  // [s]
+constexpr double kBendStep = 1e-3;  // [s]
 
 /// Bent threads without springs: elements of three places, of unequal weights, and masses.
-struct Threads {
+struct BentThreads {
   ClothModel model;
   Positions begins, moves;
   std::vector<bool> is_held;
 
-  Threads(int n_vertices, std::uint64_t seed) : is_held(static_cast<std::size_t>(n_vertices)) {
+  BentThreads(int n_vertices, std::uint64_t seed) : is_held(static_cast<std::size_t>(n_vertices)) {
     Random random(seed);
     model.masses.resize(n_vertices);
     begins.resize(3, n_vertices);
@@ -41,7 +41,7 @@ struct Threads {
     BendElement element;
     element.vertices = {VertexId(a), VertexId(b), VertexId(c)};
     element.weights = {share, -1, 1 - share};
-    element.stiffness = 1 / (compliance * kStep * kStep);
+    element.stiffness = 1 / (compliance * kBendStep * kBendStep);
     model.bends.push_back(element);
   }
 
@@ -57,7 +57,7 @@ struct Threads {
       for (std::size_t k = 0; k < 3; ++k)
         jacobian(e, bend.vertices[k].value) = bend.weights[k] / std::abs(bend.weights[1]);
       compliance[e] = model.masses.mean() /
-                      (bend.stiffness * bend.weights[1] * bend.weights[1] * kStep * kStep);
+                      (bend.stiffness * bend.weights[1] * bend.weights[1] * kBendStep * kBendStep);
     }
     Eigen::VectorXd inverse_masses = model.masses.mean() * model.masses.cwiseInverse();
     for (int i = 0; i < n; ++i)
@@ -71,13 +71,13 @@ struct Threads {
 };
 
 /// A program's moves of threads, and what it leaves of their errors.
-struct Swept {
+struct SweptThreads {
   LaneLayout layout;
   BendProgram program;
   std::vector<float> numbers;
 
-  explicit Swept(const Threads& threads)
-      : layout(lane_layout(threads.model)), program(threads.model, layout, kStep) {
+  explicit SweptThreads(const BentThreads& threads)
+      : layout(lane_layout(threads.model)), program(threads.model, layout, kBendStep) {
     numbers.assign(7 * size(), 0.0f);
     for (int i = 0; i < threads.model.n_vertices(); ++i) {
       for (int k = 0; k < 3; ++k) {
@@ -100,7 +100,7 @@ struct Swept {
     const auto array = [&](std::size_t which) { return first + which * size(); };
     return {{array(0), array(1), array(2)}, {array(3), array(4), array(5)}, array(6)};
   }
-  Positions moved(const Threads& threads) {
+  Positions moved(const BentThreads& threads) {
     Positions by(3, threads.model.n_vertices());
     for (int i = 0; i < threads.model.n_vertices(); ++i)
       for (int k = 0; k < 3; ++k) by(k, i) = at(k, i) - threads.moves(k, i);
@@ -109,8 +109,8 @@ struct Swept {
 };
 
 /// Single precision loses digits where the compliance is small against the sum of inverse masses.
-void check_solved_at_once(const Threads& threads) {
-  Swept swept(threads);
+void check_solved_at_once(const BentThreads& threads) {
+  SweptThreads swept(threads);
   const double before = swept.program.squared_residual(swept.view());
   swept.program.sweep(swept.view(), true);
   const Positions expected = threads.solved_together();
@@ -136,7 +136,7 @@ TEST_CASE("bend program: all elements of a thread are solved at once", "[dynamic
   const int n = GENERATE(3, 4, 5, 12, 65);
   const double compliance = GENERATE(1.0, 1e-2, 1e-4);
   CAPTURE(n, compliance);
-  Threads threads(n, 5);
+  BentThreads threads(n, 5);
   for (int i = 0; i + 2 < n; ++i) {
     const bool turned = i % 3 == 0;  // an element says nothing of the thread's direction
     threads.bend(turned ? i + 2 : i, i + 1, turned ? i : i + 2, i % 2 == 0 ? 0.5 : 0.4,
@@ -152,7 +152,7 @@ TEST_CASE("bend program: so are those of all threads side by side, wherever they
   const bool along_rows = GENERATE(false, true);
   const bool has_grid = GENERATE(false, true);
   CAPTURE(n_rows, n_columns, along_rows, has_grid);
-  Threads threads(n_rows * n_columns, 6);
+  BentThreads threads(n_rows * n_columns, 6);
   const std::vector<int> numbers = chance_numbers(n_rows * n_columns, 7);
   const auto vertex = [&](int r, int c) {
     return numbers[static_cast<std::size_t>(r * n_columns + c)];
@@ -174,7 +174,7 @@ TEST_CASE("bend program: sweeps over crossing threads and rings come to the comm
   const bool closes = GENERATE(false, true);
   const int n = GENERATE(3, 4, 9);
   CAPTURE(closes, n);
-  Threads threads(n * n, 8);
+  BentThreads threads(n * n, 8);
   const auto vertex = [&](int r, int c) { return (r % n) * n + c % n; };
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) {
@@ -183,7 +183,7 @@ TEST_CASE("bend program: sweeps over crossing threads and rings come to the comm
       if (closes || r + 2 < n)
         threads.bend(vertex(r, c), vertex(r + 1, c), vertex(r + 2, c), 0.5, 0.3);
     }
-  Swept swept(threads);
+  SweptThreads swept(threads);
   for (int sweep = 0; sweep < 60; ++sweep) swept.program.sweep(swept.view(), sweep == 0);
   const Positions expected = threads.solved_together();
   CHECK((swept.moved(threads) - expected).cwiseAbs().maxCoeff() <
@@ -193,7 +193,7 @@ TEST_CASE("bend program: sweeps over crossing threads and rings come to the comm
 TEST_CASE("bend program: four lanes together give what they give one by one, to the bit",
           "[dynamics]") {
   const int n = GENERATE(4, 9, 14, 33);
-  Threads threads(n * n, 9);
+  BentThreads threads(n * n, 9);
   threads.model.rest_coordinates.resize(2, n * n);
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) {
@@ -202,8 +202,8 @@ TEST_CASE("bend program: four lanes together give what they give one by one, to 
       if (r + 2 < n && c % 5 != 3)
         threads.bend(r * n + c, (r + 1) * n + c, (r + 2) * n + c, 0.45, 0.01);
     }
-  Swept together(threads);
-  Swept apart(threads);
+  SweptThreads together(threads);
+  SweptThreads apart(threads);
   apart.program.compute_lane_by_lane();
   for (int sweep = 0; sweep < 4; ++sweep) {
     together.program.sweep(together.view(), sweep == 0);
@@ -216,7 +216,7 @@ TEST_CASE("bend program: elements beside hanging vertices are left to others", "
   const QuadMesh mesh = graded_sheet(3);
   const ClothModel model = sheet_model(mesh, soft_fabric());
   REQUIRE_FALSE(model.hanging.empty());
-  const std::vector<BendConstraint> bends = bend_constraints(model, kStep);
+  const std::vector<BendConstraint> bends = bend_constraints(model, kBendStep);
   std::vector<bool> is_taken(bends.size(), false);
   for (const BendChain& chain : bend_chains(model, bends)) {
     REQUIRE(chain.vertices.size() == chain.bends.size() + 2);

@@ -9,17 +9,18 @@
 namespace pleat {
 namespace {
 
-constexpr double kStep = 1.0 / 240;  // [s]
+constexpr double kTurnStep = 1.0 / 240;  // [s]
 
-struct Cloth {
+struct TurningCloth {
   ClothModel model;
   State state;
 };
 
-/// A crumpled sheet of 5 x 5 vertices with weight, held by so many vertices of its left border.
-Cloth crumpled(int n_held) {
+/// A turning_cloth sheet of 5 x 5 vertices with weight, held by so many vertices of its left
+/// border.
+TurningCloth turning_cloth(int n_held) {
   const QuadMesh mesh = square_sheet(4);
-  Cloth cloth{sheet_model(mesh, soft_fabric()), rest_state(mesh)};
+  TurningCloth cloth{sheet_model(mesh, soft_fabric()), rest_state(mesh)};
   for (Spring& spring : cloth.model.springs) spring.stiffness *= 10;
   cloth.model.masses[24] *= 10;  // so that the centre of mass is not in the middle
   cloth.model.gravity = {0, -9.81, 0};
@@ -36,7 +37,7 @@ Cloth crumpled(int n_held) {
   return cloth;
 }
 
-Vec3 angular_momentum_about(const Vec3& point, const Cloth& cloth) {
+Vec3 angular_momentum_about(const Vec3& point, const TurningCloth& cloth) {
   Vec3 total = Vec3::Zero();
   for (int i = 0; i < cloth.model.n_vertices(); ++i)
     total += cloth.model.masses[i] *
@@ -45,7 +46,7 @@ Vec3 angular_momentum_about(const Vec3& point, const Cloth& cloth) {
 }
 
 /// Change of that by weight within a step of h [s].
-Vec3 turn_by_weight(const Vec3& point, const Cloth& cloth, double h) {
+Vec3 turn_by_weight(const Vec3& point, const TurningCloth& cloth, double h) {
   Vec3 total = Vec3::Zero();
   for (int i = 0; i < cloth.model.n_vertices(); ++i)
     total += h * cloth.model.masses[i] *
@@ -53,27 +54,27 @@ Vec3 turn_by_weight(const Vec3& point, const Cloth& cloth, double h) {
   return total;
 }
 
-MethodOptions method_of(const StepperType* stepper) {
+MethodOptions method_by(const StepperType* stepper) {
   MethodOptions method = stepper->usual_method();
-  method.step = kStep;
+  method.step = kTurnStep;
   method.substeps = 1;
   method.iterations = 2;
   return method;
 }
 
-const StepperType* any_stepper() {
+const StepperType* any_position_based() {
   return GENERATE(&steppers::kXpbd, &steppers::kPbd, &steppers::kHpbd, &steppers::kMultigrid);
 }
 
 /// Angular momentum that 60 steps add beside that of weight, over the largest that cloth has.
-Vec3 share_beside_weight(Cloth cloth, const MethodOptions& method, const Vec3& point) {
+Vec3 share_beside_weight(TurningCloth cloth, const MethodOptions& method, const Vec3& point) {
   const auto stepper = make_stepper(cloth.model, method);
   Vec3 by_weight = Vec3::Zero();
   double largest = 0;
   const Vec3 first = angular_momentum_about(point, cloth);
   for (int step = 0; step < 60; ++step) {
-    by_weight += turn_by_weight(point, cloth, kStep);
-    REQUIRE(stepper->advance(cloth.state, step * kStep).ok());
+    by_weight += turn_by_weight(point, cloth, kTurnStep);
+    REQUIRE(stepper->advance(cloth.state, step * kTurnStep).ok());
     double size = 0;
     for (int i = 0; i < cloth.model.n_vertices(); ++i)
       size += cloth.model.masses[i] * (cloth.state.positions.col(i) - point).norm() *
@@ -86,23 +87,23 @@ Vec3 share_beside_weight(Cloth cloth, const MethodOptions& method, const Vec3& p
 }  // namespace
 
 TEST_CASE("free turns: only weight turns cloth about the one point that holds it", "[dynamics]") {
-  const MethodOptions method = method_of(any_stepper());
+  const MethodOptions method = method_by(any_position_based());
   CAPTURE(method.stepper->name);
-  CHECK(share_beside_weight(crumpled(1), method, {0, 0, 0}).norm() < 1e-4);
+  CHECK(share_beside_weight(turning_cloth(1), method, {0, 0, 0}).norm() < 1e-4);
 }
 
 TEST_CASE("free turns: nothing turns a flag about its pole", "[dynamics]") {
-  const MethodOptions method = method_of(any_stepper());
+  const MethodOptions method = method_by(any_position_based());
   CAPTURE(method.stepper->name);
-  const Vec3 share = share_beside_weight(crumpled(3), method, {0, 0, 0});
+  const Vec3 share = share_beside_weight(turning_cloth(3), method, {0, 0, 0});
   CHECK(std::abs(share.y()) < 1e-4);
   CHECK(share.norm() > 1e-2);  // the pole takes up the other turns
 }
 
 TEST_CASE("free turns: free cloth keeps its angular momentum", "[dynamics]") {
-  const MethodOptions method = method_of(any_stepper());
+  const MethodOptions method = method_by(any_position_based());
   CAPTURE(method.stepper->name);
-  Cloth cloth = crumpled(0);
+  TurningCloth cloth = turning_cloth(0);
   cloth.model.gravity.setZero();
   for (int i = 0; i < cloth.model.n_vertices(); ++i)
     cloth.state.velocities.col(i) =
@@ -112,7 +113,7 @@ TEST_CASE("free turns: free cloth keeps its angular momentum", "[dynamics]") {
 
 TEST_CASE("free turns: there are none in two pieces, about two lines or about pins that move",
           "[dynamics]") {
-  Cloth cloth = crumpled(3);
+  TurningCloth cloth = turning_cloth(3);
   const LaneLayout layout = lane_layout(cloth.model);
   const std::vector<float> inverse_masses(static_cast<std::size_t>(layout.n_slots), 1.0f);
   FreeTurns turns(layout);
@@ -122,6 +123,8 @@ TEST_CASE("free turns: there are none in two pieces, about two lines or about pi
   };
   CHECK_FALSE(are_none());
   cloth.model.pins[1].motion.kind = Motion::Kind::ease;
+  CHECK_FALSE(are_none());
+  cloth.model.pins[1].motion.offset = {0, 0, 0.1};
   CHECK(are_none());
   cloth.model.pins[1].motion.kind = Motion::Kind::hold;
   cloth.model.pins[1].place.x() += 1e-3;
