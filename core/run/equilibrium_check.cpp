@@ -109,7 +109,7 @@ void EquilibriumCheck::choose_free() {
 
 void EquilibriumCheck::set_forces(const State& state, double time) {
   forces_.setZero();
-  add_elastic_forces(model_, state.positions, forces_);
+  add_internal_forces(model_, state.positions, state.velocities, forces_);
   add_gravity(model_, forces_);
   if (model_.air) {
     air_ = model_.air;

@@ -33,7 +33,7 @@ class EquilibriumCheck {
   /// Share of the weight that is not balanced; nothing without weight, where strain limits hold the
   /// cloth, whose forces no one knows, and where the solver gives up.
   ///
-  /// state  moves as one, more or less; what its velocities change is the air alone
+  /// state  moves as one, more or less; what its velocities change is air and dampers
   /// time   [s]
   std::optional<double> unbalanced_share(const State& state, double time);
 

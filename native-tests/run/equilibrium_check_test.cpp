@@ -79,6 +79,18 @@ TEST_CASE("equilibrium_check: a spring that bears part of its load leaves the ot
   CHECK(share_of(model, state) == Approx(share).epsilon(1e-5).margin(1e-6));
 }
 
+TEST_CASE("equilibrium_check: a damper bears what the spring of creeping cloth does not", "[run]") {
+  constexpr double kMass = 0.01;
+  constexpr double kLeft = 0.25;
+  constexpr double kDamping = 2;  // [N s/m]
+  ClothModel model = hung_particle(20, kMass);
+  model.springs[0].damping = kDamping;
+  State state{Positions::Zero(3, 2), Positions::Zero(3, 2)};
+  state.positions(1, 1) = -1 - (1 - kLeft) * kMass * kGravity / 20;
+  state.velocities(1, 1) = -kLeft * kMass * kGravity / kDamping;
+  CHECK(share_of(model, state) < 1e-6);
+}
+
 TEST_CASE("equilibrium_check: a chain in its closed form of equilibrium is balanced", "[run]") {
   const Chain chain;
   const ClothModel model = chain_model(chain);
