@@ -125,8 +125,9 @@ export function ownEnd(n, mu) {
   });
 }
 
-const ownEnds = new Map(); // by friction: the same for all meshes
+const ownEnds = new Map();
 
+/** End of our own sheet by friction, the same for all meshes. */
 function knownEnd(mu) {
   if (!ownEnds.has(mu)) {
     tell(`own integrator, mu ${mu}`);
