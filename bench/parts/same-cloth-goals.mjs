@@ -1,4 +1,4 @@
-// What every stepper has to reach: goals of one group of cases, and of all that were run.
+// Goals that every stepper has to reach, of one group of cases and of all that were run.
 import { atLeast, atMost, largest } from './bench-rows.mjs';
 import { counts } from './same-cloth-runs.mjs';
 

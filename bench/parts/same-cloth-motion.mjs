@@ -48,7 +48,7 @@ export function terminals() {
  */
 export function inclines() {
   const kAngle = (20 * Math.PI) / 180;
-  const kHold = fabricNumber('fine cotton', 'thickness_m') / 2; // of a vertex off a plane
+  const kHold = fabricNumber('fine cotton', 'thickness_m') / 2; // vertices off a plane
   const [sine, cosine] = [Math.sin(kAngle), Math.cos(kAngle)];
   const leanings = {
     normal: {

@@ -94,6 +94,7 @@ function rowsOf(one, stepper) {
       told,
       status: end.metrics.status,
       method: end.metrics.method,
+      unbalanced_share: end.metrics.unbalanced_share_at_rest,
       n_vertices: end.metrics.n_vertices,
       seconds: end.seconds / named.length,
       core: end.metrics.core,

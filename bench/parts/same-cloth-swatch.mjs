@@ -67,6 +67,8 @@ export function slivers() {
   ];
 }
 
+const kFinest = { explicit: 5e-3, rk4: 10e-3 }; // cells [m]
+
 /** A square swings down from its upper edge; weight stretches it by W g L/K at rest. */
 function swatch(fabric, cells, cell, seconds, name) {
   const size = cells * cell;
@@ -86,7 +88,8 @@ function swatch(fabric, cells, cell, seconds, name) {
   return {
     name,
     source: '0.2 % beside three times what weight explains',
-    of: (stepper) => withStepper(scene, stepper),
+    of: (stepper) =>
+      cell < kFinest[stepper] ? 'minutes of small substeps' : withStepper(scene, stepper),
     measures: [stretchMeasure(0.002 + explained)],
   };
 }
