@@ -340,8 +340,9 @@ std::unique_ptr<Stepper> make_stepper(ClothModel& model, const MethodOptions& op
   PLEAT_CHECK(options.stepper != nullptr, "a method names its stepper");
   const StepperType& type = *options.stepper;
   if (type.needs_factor && !is_direct(options.solver))
-    throw InputError("/method/solver", std::string("expected eigen, cholmod or supernodal for ") + type.name +
-                                           ", which needs a factor, got " + name(options.solver));
+    throw InputError("/method/solver", std::string("expected eigen, cholmod or supernodal for ") +
+                                           type.name + ", which needs a factor, got " +
+                                           name(options.solver));
   if (model.bend_friction && !type.takes_bend_friction)
     throw InputError(
         "/method/stepper",

@@ -74,7 +74,7 @@ export const TYPED_METHODS: Record<keyof Modules, string[]> = {
     status: true,
     costs: true,
     warnings: true,
-    look: true,
+    addShownFrame: true,
     compare: true,
     compareSurface: true,
     addFolds: true,
