@@ -1,5 +1,7 @@
 #include "core/dynamics/implicit/stepper_implicit.h"
 
+#include <utility>
+
 #include "core/model/elasticity.h"
 
 namespace pleat {
@@ -44,6 +46,21 @@ void StepperImplicit::add_air_resistance(double h) {
     matrix_->add_diagonal(VertexId(i), h * model_.air->resistance(VertexId(i)));
 }
 
+SolveReport StepperImplicit::solve(const State& state, double time_end, double h) {
+  SolveReport report = solve_.find_changes(*matrix_, forces_, state, time_end, h, observer_);
+  if (!hold_) return report;
+  for (int n = 0; n < ContactHold::kMaxRepeats && !report.ends_run(); ++n) {
+    velocities_ = state.velocities + solve_.changes();
+    const auto freed = hold_->free_pulled(contact_memory_, velocities_, h);
+    if (freed.empty()) break;
+    hold_->take_out(freed, state.velocities, h, *matrix_, forces_);
+    SolveReport again = solve_.find_changes_again(*matrix_, forces_, state, h, observer_);
+    again.iterations += report.iterations;
+    report = std::move(again);
+  }
+  return report;
+}
+
 SolveReport StepperImplicit::substep(State& state, double time_end, double h) {
   positions_begin_ = state.positions;
   if (model_.bend_friction)
@@ -55,11 +72,12 @@ SolveReport StepperImplicit::substep(State& state, double time_end, double h) {
   if (hold_) {
     const PartScope scope(observer_, Part::contact);
     hold_->set_resistances(*matrix_);
-    hold_->choose(contact_memory_.touches(), state, h);
-    hold_->add(state.velocities, *matrix_, forces_);
+    hold_->choose(contact_memory_, state, h, &*matrix_);
+    hold_->add(state.velocities, h, *matrix_, forces_);
   }
-  SolveReport report = solve_.advance(*matrix_, forces_, state, time_end, h, observer_);
+  SolveReport report = solve(state, time_end, h);
   if (report.ends_run()) return report;
+  solve_.move(state, time_end, h);
   if (hold_) hold_->add_forces(state.velocities, h, contact_memory_.forces());
   correct(state, time_end, h, hold_ ? hold_->resistances() : model_.masses);
   return report;
