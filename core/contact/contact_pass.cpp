@@ -299,6 +299,10 @@ std::optional<ContactPass::Touch> ContactPass::first_met(VertexId vertex,
                                                          const Vec3& position) {
   const Meeting meeting = earliest_meeting(vertex, position_begin, position, 0, nullptr);
   if (!meeting.solid) return std::nullopt;
+  const Vec3 from = position - relative_path(*meeting.solid, position_begin, position);
+  const bool is_inside =
+      meeting.impact.fraction == 0 && (meeting.impact.point - from).norm() > kTouchDistance;
+  if (is_inside) return std::nullopt;
   return Touch{vertex, static_cast<int>(meeting.solid - solids_.data()), meeting.impact.normal};
 }
 

@@ -25,6 +25,9 @@ Vec3 in_cone(const Vec3& force, const Vec3& normal, double friction) {
   return size > most ? Vec3(pressing * normal + most / size * rubbing) : force;
 }
 
+/// Share of Coulomb's bound beyond which a vertex slips: one at the bound is there to rounding.
+constexpr double kStickSlack = 1e-6;
+
 /// Adds the touches of vertices that are not among them yet; both in the order of the vertices.
 void join_touches(std::span<const Touch> more, std::vector<Touch>& touches) {
   const auto is_before = [](const Touch& a, const Touch& b) { return a.vertex < b.vertex; };
@@ -94,10 +97,11 @@ void ContactMemory::foresee(const State& begin, double h) {
 
 // With w the slide across the solid's normal n and u the solid's velocity, the vertex comes to p =
 // x + h (u + w) along the tangent. There the gap is g and the normal n', and u + (n'.w - g/h) n'
-// leads onto the surface. Friction is at most the impulse b = mu h n'.f. At the slip s, which
-// changes as in the last substep, a hold of the share b/(r s) across n' takes that much; with all
-// of r the vertex sticks. While it slips its friction is of this hold alone, and none is
-// remembered.
+// leads onto the surface. Friction is at most the impulse b = mu h p, with p = n'.f less what turns
+// the way round the solid, see settle(). At the slip s, which
+// changes as in the last substep, a hold of the share b/(r s) across n' takes that much. Where the
+// remembered force across n' and all of r s together stay within b, the vertex sticks. While it
+// slips its friction is of this hold alone, and none is remembered.
 ContactMemory::Plan ContactMemory::planned(const Touch& touch, const State& begin, double h,
                                            double resistance, Pressing of) {
   const VertexId v = touch.vertex;
@@ -115,15 +119,19 @@ ContactMemory::Plan ContactMemory::planned(const Touch& touch, const State& begi
   }
   const Vec3 force = turned(forces_.col(v), touch.normal, gap.normal);
   const double pressing = std::max(gap.normal.dot(force), 0.0);
-  const double brake = friction_of(touch) * h * pressing;
+  const double turn = std::max(gap.normal.dot(plan.velocity - solid_velocity), 0.0);
+  const double rubbing = std::max(pressing - model_.masses[v] / h * turn, 0.0);
+  const double brake = friction_of(touch) * h * rubbing;
   const Vec3 last_change = begin.velocities.col(v) - velocities_begin_.col(v);
-  const double slip = across(along + last_change, gap.normal).norm();
-  const bool sticks = brake > 0 && brake >= resistance * slip;
-  if (brake > 0) plan.grip = sticks ? 1 : brake / (resistance * slip);
-  if (!sticks && brake > 0 && of == Pressing::of_own_mass) {
+  const Vec3 slip = across(along + last_change, gap.normal);
+  const double whole = resistance * slip.norm();
+  const bool sticks = brake > 0 && (1 + kStickSlack) * brake >=
+                                       (resistance * slip - h * across(force, gap.normal)).norm();
+  if (brake > 0) plan.grip = brake >= whole ? 1 : brake / whole;
+  if (!sticks && brake > 0 && whole > 0 && of == Pressing::of_own_mass) {
     const Vec3 fall = begin.velocities.col(v) + h * model_.gravity;
     const double stop = model_.masses[v] * gap.normal.dot(plan.velocity - fall);
-    plan.grip = std::min(friction_of(touch) * std::max(stop, 0.0) / (resistance * slip), 1.0);
+    plan.grip = std::min(friction_of(touch) * std::max(stop, 0.0) / whole, 1.0);
   }
   forces_.col(v) = sticks ? force : Vec3(pressing * gap.normal);
   return plan;
@@ -171,13 +179,17 @@ void ContactMemory::let_go(VertexId vertex, State& state, double h, double resis
 }
 
 // A vertex that is pressed ends on the surface, which curves away from the tangent that the solve
-// held it to, and without velocity off it. One that was pulled is given that back.
+// held it to, and without velocity off it. This takes half of the way round from it, which the
+// force does not know of: on a ball of radius R the force comes to m (g.n - w^2/2R). One that is
+// not pressed by as much as that takes does without the force.
 void ContactMemory::settle(const Plan& plan, State& state, double h, double resistance) {
   const VertexId v = plan.touch.vertex;
   auto force = forces_.col(v);
   auto velocity = state.velocities.col(v);
+  const Vec3 solid_velocity = model_.contact->solid_velocity(plan.touch, positions_begin_.col(v));
+  const double turn = std::max(plan.normal.dot(plan.velocity - solid_velocity), 0.0);
   const double pressing = plan.normal.dot(force);
-  if (pressing <= 0) {
+  if (pressing <= model_.masses[v] / h * turn) {
     const Vec3 pull = pressing * plan.normal;
     const Vec3 change = h * (pull / plan.resistance + (force - pull) / resistance);
     velocity -= change;
@@ -191,7 +203,7 @@ void ContactMemory::settle(const Plan& plan, State& state, double h, double resi
   touch.normal = gap.normal;
   force = turned(in_cone(force, plan.normal, friction_of(touch)), plan.normal, gap.normal);
   state.positions.col(v) -= gap.distance * gap.normal;
-  const Vec3 slide = velocity - model_.contact->solid_velocity(touch, positions_begin_.col(v));
+  const Vec3 slide = velocity - solid_velocity;
   velocity -= gap.normal.dot(slide) * gap.normal;
   settled_.push_back(touch);
 }
@@ -242,13 +254,22 @@ void ContactMemory::forget_untouched() {
   forget_until(forces_.cols());
 }
 
-// All forces on a vertex in a corner are remembered as they are: they are not told apart.
+// All forces on a vertex in a corner are remembered as they are: they are not told apart. Of a
+// vertex that came down in this substep the sweep has taken the friction of that already, and no
+// force has to stop it again.
 void ContactMemory::add_forces(std::span<const Touch> touches, const Positions& velocities,
                                double h) {
   for (const Touch& touch : touches) {
     const VertexId v = touch.vertex;
     auto force = forces_.col(v);
+    const bool is_new = force.isZero(0) && velocities_begin_.cols() > 0;
     force += model_.masses[v] / h * (velocities.col(v) - solved_velocities_.col(v));
+    if (is_new && !touch.in_corner) {
+      const Vec3 solid_velocity = model_.contact->solid_velocity(touch, positions_begin_.col(v));
+      const double down = touch.normal.dot(solid_velocity - velocities_begin_.col(v));
+      const double stop = std::min(model_.masses[v] / h * down, touch.normal.dot(force));
+      force -= std::max(stop, 0.0) * touch.normal;
+    }
     if (!touch.in_corner) force = in_cone(force, touch.normal, friction_of(touch));
   }
 }

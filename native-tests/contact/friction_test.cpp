@@ -151,6 +151,8 @@ TEST_CASE("contact: the solid on which a vertex is settled leaves it alone, othe
   CHECK(met->solid == 0);
   CHECK((met->normal - Vec3(0, 1, 0)).norm() < 1e-12);
   CHECK_FALSE(pass.first_met(VertexId(0), begin, begin + Vec3(0, 0.1, 0)).has_value());
+  const Vec3 inside(0, 0.9, 0);
+  CHECK_FALSE(pass.first_met(VertexId(0), inside, inside).has_value());
   const ContactPass::Touch settled{VertexId(0), 0, end};
   Positions positions = end;
   Positions velocities = Vec3(std::cos(0.1), -std::sin(0.1), 0);

@@ -1,5 +1,7 @@
 #include "core/dynamics/implicit/contact_hold.h"
 
+#include <algorithm>
+
 namespace pleat {
 namespace {
 
@@ -29,8 +31,10 @@ void ContactHold::choose(ContactMemory& memory, const State& begin, double h,
     if (matrix) plan.resistance = mass_unit * matrix->diagonal_along(v, plan.normal);
     const Mat3 along = plan.normal * plan.normal.transpose();
     const Mat3 hold = along + plan.grip * (Mat3::Identity() - along);
+    const Vec3 solid_velocity = model_.contact->solid_velocity(plan.touch, begin.positions.col(v));
+    const double turn = std::max(plan.normal.dot(plan.velocity - solid_velocity), 0.0);
     held_.push_back({v, share_ * resistances_[v] * hold, plan.velocity, plan.normal,
-                     memory.forces().col(v), !plan.touch.in_corner});
+                     model_.masses[v] / h * turn, memory.forces().col(v), !plan.touch.in_corner});
   }
 }
 

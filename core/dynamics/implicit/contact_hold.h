@@ -33,6 +33,7 @@ class ContactHold {
     Mat3 resistance;    // R [kg]
     Vec3 velocity;      // u, that it is held to [m/s]
     Vec3 normal;        // unit, away from the solid
+    double turn_force;  // force that turns its velocity round the solid [N]
     Vec3 force;         // remembered one, among the loads [N]
     bool may_be_freed;  // is held no longer where it would be pulled
   };

@@ -1,10 +1,24 @@
 #include "core/dynamics/implicit/stepper_implicit.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/model/elasticity.h"
 
 namespace pleat {
+namespace {
+
+/// Relative residual that solves beside solids leave at most. The right-hand side holds all forces
+/// of threads: a thousandth of it may be much of a vertex's weight, by which solids hold and let
+/// go.
+constexpr double kHeldTolerance = 1e-5;
+
+MethodOptions solver_options(const ClothModel& model, MethodOptions options) {
+  if (model.contact) options.tolerance = std::min(options.tolerance, kHeldTolerance);
+  return options;
+}
+
+}  // namespace
 
 StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options)
     : StepperImplicit(model, options, options.substeps) {
@@ -13,7 +27,8 @@ StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options
 
 StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options, int substeps)
     : Stepper(model, options, substeps, ContactForces::remembered),
-      solve_(model, options.solver, make_solver(options, kMaxSolverIterations)),
+      solve_(model, options.solver,
+             make_solver(solver_options(model, options), kMaxSolverIterations)),
       forces_(3, model.n_vertices()) {
   if (model_.contact) hold_.emplace(model_);
 }

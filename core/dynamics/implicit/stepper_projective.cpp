@@ -40,7 +40,10 @@ StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& opt
     steady_side_.resize(model.n_vertices(), 3);
     proposed_.resize(3, model.n_vertices());
   }
-  if (model_.contact) hold_.emplace(model_, kHeldShare, Pressing::of_own_mass);
+  if (model_.contact) {
+    hold_.emplace(model_, kHeldShare, Pressing::of_own_mass);
+    velocities_.resize(3, model.n_vertices());
+  }
   if (model.air) {
     air_forces_.resize(3, model.n_vertices());
     other_forces_ = model.gravity * model.masses.transpose();
