@@ -157,8 +157,8 @@ TEST_CASE("held cloth: on a belt a sheet comes to ride along", "[contact]") {
   }
 }
 
-// A ball comes up under a sheet that hangs from two sides. Stopped alone, the first vertices would
-// stretch their links by the way of a substep.
+// A ball comes up under a sheet. Moved alone, the first vertices would stretch their links by the
+// way of a substep, which is a fifth of a link.
 TEST_CASE("held cloth: the links of what a solid meets first know of it at once", "[contact]") {
   Collider ball = ball_collider(Vec3(0, -0.13, 0), 0.12, 0.3);
   ball.motion = steady_motion(Vec3(0, 1.2, 0));
@@ -166,12 +166,9 @@ TEST_CASE("held cloth: the links of what a solid meets first know of it at once"
        {&steppers::kImplicitEuler, &steppers::kImex, &steppers::kNewton}) {
     CAPTURE(type->name);
     SheetOnSolid sheet = sheet_on(ball, 10, 0.5, Vec3::Zero(), Vec3::UnitX());
-    for (int v = 0; v < sheet.model.n_vertices(); ++v)
-      if (std::abs(sheet.state.positions(0, v)) > 0.249)
-        sheet.model.pins.push_back({VertexId(v), sheet.state.positions.col(v), {}});
     const auto stepper = make_stepper(sheet.model, method_of(type, 1.0 / 120));
     double stretch = 0;
-    for (int s = 0; s < 24; ++s) {
+    for (int s = 0; s < 12; ++s) {
       REQUIRE(stepper->advance(sheet.state, s / 120.0).ok());
       for (const Spring& spring : sheet.model.springs) {
         const Vec3 link = sheet.state.positions.col(spring.a) - sheet.state.positions.col(spring.b);
@@ -179,7 +176,7 @@ TEST_CASE("held cloth: the links of what a solid meets first know of it at once"
           stretch = std::max(stretch, link.norm() / spring.rest_length - 1);
       }
     }
-    CHECK(stretch < 0.03);
+    CHECK(stretch < 0.05);
   }
 }
 
