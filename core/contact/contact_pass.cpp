@@ -242,12 +242,14 @@ bool ContactPass::is_outside(const Solid& solid, const Vec3& place) const {
 // is clear of both. Where solids leave it no place with its clearance, the middle of the last two
 // places is as far inside of either's, and may yet be outside of the solids themselves.
 std::optional<ContactPass::Touch> ContactPass::resolve(VertexId vertex, const Vec3& position_begin,
-                                                       Vec3& position, Vec3& velocity) {
-  Meeting meeting = earliest_meeting(vertex, position_begin, position, 0, nullptr);
-  if (!meeting.solid || !velocity.allFinite()) return std::nullopt;
+                                                       Vec3& position, Vec3& velocity,
+                                                       const Touch* settled) {
+  const Solid* before = settled ? &solids_[static_cast<std::size_t>(settled->solid)] : nullptr;
+  Touch touch = settled ? *settled : Touch{};
+  Meeting meeting = earliest_meeting(vertex, position_begin, position, 0, before);
+  if (!meeting.solid || !velocity.allFinite())
+    return settled ? std::optional<Touch>(touch) : std::nullopt;
   const bool bounces = options_.response == ContactResponse::uniform;
-  Touch touch;
-  const Solid* before = nullptr;
   Vec3 place_before = position;
   for (int n_meetings = 0; meeting.solid; ++n_meetings) {
     if (n_meetings == kMaxMeetings) {
@@ -292,22 +294,37 @@ std::optional<ContactPass::Touch> ContactPass::resolve(VertexId vertex, const Ve
   return touch;
 }
 
+std::optional<ContactPass::Touch> ContactPass::first_met(VertexId vertex,
+                                                         const Vec3& position_begin,
+                                                         const Vec3& position) {
+  const Meeting meeting = earliest_meeting(vertex, position_begin, position, 0, nullptr);
+  if (!meeting.solid) return std::nullopt;
+  const Vec3 from = position - relative_path(*meeting.solid, position_begin, position);
+  const bool is_inside =
+      meeting.impact.fraction == 0 && (meeting.impact.point - from).norm() > kTouchDistance;
+  if (is_inside) return std::nullopt;
+  return Touch{vertex, static_cast<int>(meeting.solid - solids_.data()), meeting.impact.normal};
+}
+
 std::span<const ContactPass::Touch> ContactPass::resolve(const PositionsView& positions_begin,
                                                          std::span<const char> is_exempt,
                                                          PositionsRef positions,
-                                                         PositionsRef velocities) {
+                                                         PositionsRef velocities,
+                                                         std::span<const Touch> settled) {
   const Eigen::Index n_vertices = positions.cols();
   PLEAT_CHECK(positions_begin.cols() == n_vertices && velocities.cols() == n_vertices &&
                   is_exempt.size() == static_cast<std::size_t>(n_vertices),
               "contact takes a whole state");
   touches_.clear();
   touches_.reserve(static_cast<std::size_t>(n_vertices));
+  auto next_settled = settled.begin();
   for (Eigen::Index i = 0; i < n_vertices; ++i) {
     if (is_exempt[static_cast<std::size_t>(i)] != 0) continue;
+    const bool is_settled = next_settled != settled.end() && next_settled->vertex == i;
     Vec3 position = positions.col(i);
     Vec3 velocity = velocities.col(i);
-    const std::optional<Touch> touch =
-        resolve(VertexId(i), positions_begin.col(i), position, velocity);
+    const std::optional<Touch> touch = resolve(VertexId(i), positions_begin.col(i), position,
+                                               velocity, is_settled ? &*next_settled++ : nullptr);
     if (!touch) continue;
     positions.col(i) = position;
     velocities.col(i) = velocity;

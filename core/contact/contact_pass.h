@@ -83,18 +83,23 @@ class ContactPass {
   /// is_exempt        for each vertex whether contact leaves it alone
   /// positions        at time_end [m]; corrected
   /// velocities       at time_end [m/s]; corrected
+  /// settled          touches of vertices that a solid has acted on, in their order: they are
+  ///                  on it, and met by the others alone
   ///
   /// Returns how vertices were touched, in their order; valid until the next call. One that nothing
   /// touched, or that is not finite, is left to the bit. Allocates nothing after the first call
   /// with as many vertices.
   std::span<const Touch> resolve(const PositionsView& positions_begin,
                                  std::span<const char> is_exempt, PositionsRef positions,
-                                 PositionsRef velocities);
+                                 PositionsRef velocities, std::span<const Touch> settled = {});
 
   /// Corrects one vertex alone, of which `resolve` of the whole state knows nothing; returns
-  /// nothing where it is not touched.
+  /// nothing where it is not touched. A touch that settled it may be null.
   std::optional<Touch> resolve(VertexId vertex, const Vec3& position_begin, Vec3& position,
-                               Vec3& velocity);
+                               Vec3& velocity, const Touch* settled = nullptr);
+
+  /// The solid that a vertex meets first on its way to a place [m]; nothing where it meets none.
+  std::optional<Touch> first_met(VertexId vertex, const Vec3& position_begin, const Vec3& position);
 
   /// A solid over the substep that was begun, as vertices are held off it.
   struct Outline {

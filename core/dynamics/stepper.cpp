@@ -109,29 +109,24 @@ std::unique_ptr<LinearSolver> Stepper::make_solver(const MethodOptions& options,
 }
 
 // NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is handed on to be written through.
-void Stepper::set_steady_forces(PositionsRef forces) const {
-  forces.setZero();
-  add_gravity(model_, forces);
-  if (contact_memory_.has_forces()) forces += contact_memory_.forces();
-}
-
-// NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is handed on to be written through.
 void Stepper::set_external_forces(const State& state, PositionsRef forces) {
   const PartScope scope(observer_, Part::forces);
-  set_steady_forces(forces);
+  forces.setZero();
+  add_gravity(model_, forces);
   if (model_.air) model_.air->add_forces(state.positions, state.velocities, model_.hanging, forces);
 }
 
-std::span<const ContactPass::Touch> Stepper::touch_solids(State& state) {
+std::span<const ContactPass::Touch> Stepper::touch_solids(
+    State& state, std::span<const ContactPass::Touch> settled) {
   return model_.contact->resolve(positions_begin_, contact_memory_.exempt(), state.positions,
-                                 state.velocities);
+                                 state.velocities, settled);
 }
 
 void Stepper::resolve_contacts(State& state, double h, const Eigen::VectorXd& resistances,
                                double travel_share) {
   const PartScope scope(observer_, Part::contact);
   contact_memory_.let_go(state, h, resistances, travel_share);
-  contact_memory_.remember(touch_solids(state), positions_begin_, state, h, resistances);
+  contact_memory_.remember(touch_solids(state, contact_memory_.settled()), state, h);
 }
 
 // Solids push cloth beyond its limits, and limits pull it into solids: each in turn, contact last.
@@ -144,7 +139,7 @@ void Stepper::limit_among_contacts(State& state, double h, double travel_share) 
     }
     const PartScope scope(observer_, Part::contact);
     contact_memory_.keep(state);
-    contact_memory_.add(touch_solids(state), state, h);
+    contact_memory_.add(touch_solids(state, {}), state, h);
   }
 }
 

@@ -89,9 +89,7 @@ class Stepper {
   void correct(State& state, double time_end, double h, const Eigen::VectorXd& resistances,
                double travel_share = 1);
 
-  /// Weight and remembered contact [N], without the air's forces.
-  void set_steady_forces(PositionsRef forces) const;
-  /// Everything but elasticity and damping: weight, remembered contact, air [N]. Nothing where
+  /// Everything but elasticity, damping and remembered contact: weight, air [N]. Nothing where
   /// vertices hang.
   void set_external_forces(const State& state, PositionsRef forces);
 
@@ -114,7 +112,8 @@ class Stepper {
   void resolve_contacts(State& state, double h, const Eigen::VectorXd& resistances,
                         double travel_share);
   void limit_among_contacts(State& state, double h, double travel_share);
-  std::span<const ContactPass::Touch> touch_solids(State& state);
+  std::span<const ContactPass::Touch> touch_solids(State& state,
+                                                   std::span<const ContactPass::Touch> settled);
 
   MethodOptions options_;
   int substeps_;

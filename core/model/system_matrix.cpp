@@ -116,6 +116,16 @@ double SystemMatrix::diagonal_trace(VertexId vertex) const {
   return trace;
 }
 
+double SystemMatrix::diagonal_along(VertexId vertex, const Vec3& direction) const {
+  double sum = 0;
+  for (int c = 0; c < 3; ++c) {
+    const double* values = matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * vertex + c];
+    for (int r = c; r < 3; ++r)
+      sum += (r == c ? 1 : 2) * direction[r] * values[r - c] * direction[c];
+  }
+  return sum;
+}
+
 void SystemMatrix::add_diagonal(VertexId vertex, const Mat3& block) {
   for (int c = 0; c < 3; ++c) {
     double* values = matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * vertex + c];

@@ -27,6 +27,8 @@ class SystemMatrix {
                       double damping_factor, ElementHessian hessian);
   /// The trace of a vertex's block on the diagonal.
   double diagonal_trace(VertexId vertex) const;
+  /// A vertex's resistance along a unit vector: that entry of its block on the diagonal.
+  double diagonal_along(VertexId vertex, const Vec3& direction) const;
   /// Adds a block to the diagonal.
   void add_diagonal(VertexId vertex, const Mat3& block);
 

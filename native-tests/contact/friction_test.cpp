@@ -133,4 +133,43 @@ TEST_CASE("contact: a vertex leaves a smooth ball at the angle acos 2/3", "[cont
   CHECK(error_fine < 2e-3);
 }
 
+// It goes round a ball of 1 m on the surface, so that its way's chord is inside.
+TEST_CASE("contact: the solid on which a vertex is settled leaves it alone, others do not",
+          "[contact]") {
+  const bool has_wall = GENERATE(false, true);
+  std::vector<Collider> solids = {ball_collider(Vec3::Zero(), 1, 0.5)};
+  if (has_wall) {
+    solids.push_back(floor_collider(0));
+    solids.back().shape = Plane{Vec3(0.05, 0, 0), Vec3(-1, 0, 0)};
+  }
+  ContactPass pass(solids, {});
+  pass.begin_substep(0, 0.1);
+  const Vec3 begin(0, 1, 0);
+  const Vec3 end(std::sin(0.1), std::cos(0.1), 0);
+  const auto met = pass.first_met(VertexId(0), begin, end);
+  REQUIRE(met.has_value());
+  CHECK(met->solid == 0);
+  CHECK((met->normal - Vec3(0, 1, 0)).norm() < 1e-12);
+  CHECK_FALSE(pass.first_met(VertexId(0), begin, begin + Vec3(0, 0.1, 0)).has_value());
+  const Vec3 inside(0, 0.9, 0);
+  CHECK_FALSE(pass.first_met(VertexId(0), inside, inside).has_value());
+  const ContactPass::Touch settled{VertexId(0), 0, end};
+  Positions positions = end;
+  Positions velocities = Vec3(std::cos(0.1), -std::sin(0.1), 0);
+  const Positions before = velocities;
+  const std::vector<char> none(1, 0);
+  const auto touches =
+      pass.resolve(Positions(begin), none, positions, velocities, std::span(&settled, 1));
+  REQUIRE(touches.size() == 1);
+  CHECK(touches[0].in_corner == has_wall);
+  if (has_wall) {
+    CHECK(positions(0, 0) <= 0.05);
+    CHECK(velocities(0, 0) <= 0);
+    CHECK(positions.norm() >= 1 - 1e-12);
+  } else {
+    CHECK(positions.col(0) == end);
+    CHECK(velocities == before);
+  }
+}
+
 }  // namespace pleat

@@ -1,10 +1,20 @@
 #include "core/dynamics/implicit/contact_hold.h"
 
-namespace pleat {
+#include <algorithm>
 
-ContactHold::ContactHold(const ClothModel& model, double share)
-    : contact_(*model.contact), share_(share), resistances_(model.masses) {
+namespace pleat {
+namespace {
+
+/// Share of a vertex's weight that may pull it back to a solid for one substep: what leaves is
+/// found to hundredths of a substep, and seldom solved for anew.
+constexpr double kLeastPull = 0.1;
+
+}  // namespace
+
+ContactHold::ContactHold(const ClothModel& model, double share, Pressing pressing)
+    : model_(model), share_(share), pressing_(pressing), resistances_(model.masses) {
   held_.reserve(static_cast<std::size_t>(model.n_vertices()));
+  freed_.reserve(static_cast<std::size_t>(model.n_vertices()));
 }
 
 void ContactHold::set_resistances(const SystemMatrix& matrix, double mass_unit) {
@@ -12,32 +22,56 @@ void ContactHold::set_resistances(const SystemMatrix& matrix, double mass_unit) 
     resistances_[i] = mass_unit / 3 * matrix.diagonal_trace(VertexId(i));
 }
 
-void ContactHold::choose(std::span<const ContactPass::Touch> touches, const State& begin,
-                         double h) {
+void ContactHold::choose(ContactMemory& memory, const State& begin, double h,
+                         const SystemMatrix* matrix, double mass_unit) {
+  memory.plan(begin, h, resistances_, share_, pressing_);
   held_.clear();
-  for (const ContactPass::Touch& touch : touches) {
-    const VertexId v = touch.vertex;
-    const double resistance = share_ * resistances_[v];
-    const Vec3 solid_velocity = contact_.solid_velocity(touch, begin.positions.col(v));
-    if (touch.sticks) {
-      held_.push_back({v, resistance * Mat3::Identity(), solid_velocity});
-      continue;
-    }
-    // Round solids fall away below the tangent: held along it, a vertex would be lifted off.
-    const Vec3 slide = begin.velocities.col(v) - solid_velocity;
-    const Vec3 along = slide - touch.normal * touch.normal.dot(slide);
-    const Gap gap =
-        contact_.gap_at_end(touch, begin.positions.col(v) + h * (solid_velocity + along));
-    const double approach = gap.normal.dot(along) - gap.distance / h;
-    held_.push_back({v, resistance * gap.normal * gap.normal.transpose(),
-                     solid_velocity + approach * gap.normal});
+  for (ContactMemory::Plan& plan : memory.plans()) {
+    const VertexId v = plan.touch.vertex;
+    if (matrix) plan.resistance = mass_unit * matrix->diagonal_along(v, plan.normal);
+    const Mat3 along = plan.normal * plan.normal.transpose();
+    const Mat3 hold = along + plan.grip * (Mat3::Identity() - along);
+    const Vec3 solid_velocity = model_.contact->solid_velocity(plan.touch, begin.positions.col(v));
+    const double turn = std::max(plan.normal.dot(plan.velocity - solid_velocity), 0.0);
+    held_.push_back({v, share_ * resistances_[v] * hold, plan.velocity, plan.normal,
+                     model_.masses[v] / h * turn, memory.forces().col(v), !plan.touch.in_corner});
   }
 }
 
-void ContactHold::add(const Positions& velocities, SystemMatrix& matrix, PositionsRef rhs) const {
+std::span<const ContactHold::Held> ContactHold::free_pulled(ContactMemory& memory,
+                                                            const Positions& velocities, double h) {
+  freed_.clear();
+  const double acceleration = kLeastPull * model_.gravity.norm();
+  std::size_t n_left = 0;
+  for (const Held& held : held_) {
+    const Vec3 force =
+        held.force + held.resistance * (held.velocity - velocities.col(held.vertex)) / h;
+    if (held.may_be_freed && held.normal.dot(force) < -acceleration * model_.masses[held.vertex]) {
+      freed_.push_back(held);
+      memory.forces().col(held.vertex).setZero();
+    } else {
+      held_[n_left++] = held;
+    }
+  }
+  held_.erase(held_.begin() + static_cast<std::ptrdiff_t>(n_left), held_.end());
+  return freed_;
+}
+
+void ContactHold::add(const Positions& velocities, double h, SystemMatrix& matrix,
+                      PositionsRef rhs) const {
   for (const Held& held : held_) {
     matrix.add_diagonal(held.vertex, held.resistance);
     rhs.col(held.vertex) += held.resistance * (held.velocity - velocities.col(held.vertex));
+    rhs.col(held.vertex) += h * held.force;
+  }
+}
+
+void ContactHold::take_out(std::span<const Held> freed, const Positions& velocities, double h,
+                           SystemMatrix& matrix, PositionsRef rhs) const {
+  for (const Held& held : freed) {
+    matrix.add_diagonal(held.vertex, -held.resistance);
+    rhs.col(held.vertex) -= held.resistance * (held.velocity - velocities.col(held.vertex));
+    rhs.col(held.vertex) -= h * held.force;
   }
 }
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/contact_pass.h"
+#include "core/dynamics/contact_memory.h"
 #include "core/model/state.h"
 #include "core/model/system_matrix.h"
 
@@ -11,35 +11,52 @@ namespace pleat {
 
 /// Lets the cloth around a touched vertex know in the solve itself that a solid holds it.
 ///
-/// A vertex that a solid touched in the last substep is held by a resistance as large as its own:
-/// to the solid's velocity altogether if it sticks, and if it slips, along the normal, onto the
-/// solid's surface where it will be. What that exerts joins the remembered contact force, which
-/// thereby converges as a multiplier does.
+/// A vertex is held as ContactMemory plans it, with a resistance as large as its own: along the
+/// normal onto the solid's surface where it will be, and across it as far as friction goes. What
+/// that exerts joins the remembered contact force, which thereby converges as a multiplier does.
 ///
 /// Source: Hestenes, Multiplier and gradient methods, Journal of Optimization Theory and
 /// Applications 4, 1969; docs/methods/contact.md.
 class ContactHold {
  public:
-  /// share  of what a vertex resists with alone, with which it is held
-  explicit ContactHold(const ClothModel& model, double share = 1);
+  /// How often a substep is solved anew without vertices that were pulled. Once finds nearly all.
+  static constexpr int kMaxRepeats = 2;
+
+  /// share     share of what a vertex resists with alone, with which it is held
+  /// pressing  what friction of slipping vertices goes by
+  explicit ContactHold(const ClothModel& model, double share = 1,
+                       Pressing pressing = Pressing::remembered);
 
   /// Hold on a touched vertex: the force R (u - v)/h at its velocity v.
   struct Held {
     VertexId vertex;
-    Mat3 resistance;  // R [kg]
-    Vec3 velocity;    // u, that it is held to [m/s]
+    Mat3 resistance;    // R [kg]
+    Vec3 velocity;      // u, that it is held to [m/s]
+    Vec3 normal;        // unit, away from the solid
+    double turn_force;  // force that turns its velocity round the solid [N]
+    Vec3 force;         // remembered one, among the loads [N]
+    bool may_be_freed;  // is held no longer where it would be pulled
   };
 
   /// Takes them from the matrix of a substep without holds; mass_unit turns its entries into kg.
   void set_resistances(const SystemMatrix& matrix, double mass_unit = 1);
   void set_resistances(const Eigen::VectorXd& resistances) { resistances_ = resistances; }
 
-  /// Says which vertices are held in the substep that the contact pass is at.
-  void choose(std::span<const ContactPass::Touch> touches, const State& begin, double h);
+  /// Has the memory plan the substep that the contact pass is at, and holds what it plans. The
+  /// matrix, of which resistances were taken, may be null.
+  void choose(ContactMemory& memory, const State& begin, double h,
+              const SystemMatrix* matrix = nullptr, double mass_unit = 1);
   std::span<const Held> held() const { return held_; }
 
+  /// Finds those whom a solid would pull back at these velocities [m/s]: they are held no longer,
+  /// and have to be taken out of the equations. Valid until the next call.
+  std::span<const Held> free_pulled(ContactMemory& memory, const Positions& velocities, double h);
+
   /// Adds what holds them to A dv = rhs, a linearised step from these velocities, A in kg.
-  void add(const Positions& velocities, SystemMatrix& matrix, PositionsRef rhs) const;
+  void add(const Positions& velocities, double h, SystemMatrix& matrix, PositionsRef rhs) const;
+  /// Takes what held those who were freed out of it.
+  void take_out(std::span<const Held> freed, const Positions& velocities, double h,
+                SystemMatrix& matrix, PositionsRef rhs) const;
 
   /// Adds the forces that they exert at the velocities of the solution [m/s].
   void add_forces(const Positions& velocities, double h, Positions& forces) const;
@@ -48,10 +65,12 @@ class ContactHold {
   const Eigen::VectorXd& resistances() const { return resistances_; }
 
  private:
-  const ContactPass& contact_;
+  const ClothModel& model_;
   double share_;
+  Pressing pressing_;
   Eigen::VectorXd resistances_;
   std::vector<Held> held_;
+  std::vector<Held> freed_;
 };
 
 }  // namespace pleat

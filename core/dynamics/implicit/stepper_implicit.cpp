@@ -1,8 +1,24 @@
 #include "core/dynamics/implicit/stepper_implicit.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "core/model/elasticity.h"
 
 namespace pleat {
+namespace {
+
+/// Relative residual that solves beside solids leave at most. The right-hand side holds all forces
+/// of threads: a thousandth of it may be much of a vertex's weight, by which solids hold and let
+/// go.
+constexpr double kHeldTolerance = 1e-5;
+
+MethodOptions solver_options(const ClothModel& model, MethodOptions options) {
+  if (model.contact) options.tolerance = std::min(options.tolerance, kHeldTolerance);
+  return options;
+}
+
+}  // namespace
 
 StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options)
     : StepperImplicit(model, options, options.substeps) {
@@ -11,7 +27,8 @@ StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options
 
 StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options, int substeps)
     : Stepper(model, options, substeps, ContactForces::remembered),
-      solve_(model, options.solver, make_solver(options, kMaxSolverIterations)),
+      solve_(model, options.solver,
+             make_solver(solver_options(model, options), kMaxSolverIterations)),
       forces_(3, model.n_vertices()) {
   if (model_.contact) hold_.emplace(model_);
 }
@@ -44,6 +61,21 @@ void StepperImplicit::add_air_resistance(double h) {
     matrix_->add_diagonal(VertexId(i), h * model_.air->resistance(VertexId(i)));
 }
 
+SolveReport StepperImplicit::solve(const State& state, double time_end, double h) {
+  SolveReport report = solve_.find_changes(*matrix_, forces_, state, time_end, h, observer_);
+  if (!hold_) return report;
+  for (int n = 0; n < ContactHold::kMaxRepeats && !report.ends_run(); ++n) {
+    velocities_ = state.velocities + solve_.changes();
+    const auto freed = hold_->free_pulled(contact_memory_, velocities_, h);
+    if (freed.empty()) break;
+    hold_->take_out(freed, state.velocities, h, *matrix_, forces_);
+    SolveReport again = solve_.find_changes_again(*matrix_, forces_, state, h, observer_);
+    again.iterations += report.iterations;
+    report = std::move(again);
+  }
+  return report;
+}
+
 SolveReport StepperImplicit::substep(State& state, double time_end, double h) {
   positions_begin_ = state.positions;
   if (model_.bend_friction)
@@ -55,11 +87,12 @@ SolveReport StepperImplicit::substep(State& state, double time_end, double h) {
   if (hold_) {
     const PartScope scope(observer_, Part::contact);
     hold_->set_resistances(*matrix_);
-    hold_->choose(contact_memory_.touches(), state, h);
-    hold_->add(state.velocities, *matrix_, forces_);
+    hold_->choose(contact_memory_, state, h, &*matrix_);
+    hold_->add(state.velocities, h, *matrix_, forces_);
   }
-  SolveReport report = solve_.advance(*matrix_, forces_, state, time_end, h, observer_);
+  SolveReport report = solve(state, time_end, h);
   if (report.ends_run()) return report;
+  solve_.move(state, time_end, h);
   if (hold_) hold_->add_forces(state.velocities, h, contact_memory_.forces());
   correct(state, time_end, h, hold_ ? hold_->resistances() : model_.masses);
   return report;

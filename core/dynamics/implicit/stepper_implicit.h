@@ -34,12 +34,14 @@ class StepperImplicit : public Stepper {
  private:
   void assemble(const State& state, double h);
   void add_air_resistance(double h);
+  SolveReport solve(const State& state, double time_end, double h);
 
   const ClothModel* stiff_ = nullptr;
   std::optional<SystemMatrix> matrix_;
   std::optional<ContactHold> hold_;  // models with contact only
   VelocitySolve solve_;
-  Positions forces_;  // right-hand side, in [N s] once scaled by h
+  Positions forces_;      // right-hand side, in [N s] once scaled by h
+  Positions velocities_;  // solved ones, before contact; models with contact only
 };
 
 }  // namespace pleat

@@ -85,7 +85,12 @@ void StepperNewton::set_up(const State& state, double h) {
   const PartScope scope(observer_, Part::assembly);
   extent_ = box_diagonal(positions_begin_);
   if (extent_ == 0) extent_ = 1;  // vertices in one place: per metre
-  set_steady_forces(loads_);
+  loads_.setZero();
+  add_gravity(model_, loads_);
+  if (!hold_ && contact_memory_.has_forces()) {
+    contact_memory_.turn_forces(state, h);
+    loads_ += contact_memory_.forces();
+  }
   matrix_.set_zero();
   if (!is_at_rest()) {
     interval_ = options().rule == NewtonRule::midpoint ? h / 2 : h;
@@ -103,13 +108,30 @@ void StepperNewton::set_up(const State& state, double h) {
 void StepperNewton::hold(const State& state, double h) {
   matrix_.add_elasticity(positions_begin_, 1, 0, ElementHessian::projected);
   hold_->set_resistances(matrix_, interval_ * interval_);
-  hold_->choose(contact_memory_.touches(), state, h);
+  hold_->choose(contact_memory_, state, h, &matrix_, interval_ * interval_);
   matrix_.set_values(base_);
-  for (const ContactHold::Held& held : hold_->held()) {
-    matrix_.add_diagonal(held.vertex, held.resistance / (interval_ * interval_));
-    loads_.col(held.vertex) += held.resistance * held.velocity / interval_;
-  }
+  add_holds(hold_->held(), 1);
   base_.coeffs() = matrix_.lower().coeffs();
+}
+
+/// Adds what holds these vertices to the matrix and the loads, or with -1 takes it out.
+void StepperNewton::add_holds(std::span<const ContactHold::Held> holds, double sign) {
+  for (const ContactHold::Held& held : holds) {
+    matrix_.add_diagonal(held.vertex, sign / (interval_ * interval_) * held.resistance);
+    loads_.col(held.vertex) += sign * (held.resistance * held.velocity / interval_ + held.force);
+  }
+}
+
+/// Frees those whom a solid would pull; false where there are none.
+bool StepperNewton::free_pulled() {
+  if (!hold_) return false;
+  velocities_ = (positions_ - positions_begin_) / interval_;
+  const auto freed = hold_->free_pulled(contact_memory_, velocities_, interval_);
+  if (freed.empty()) return false;
+  matrix_.set_values(base_);
+  add_holds(freed, -1);
+  base_.coeffs() = matrix_.lower().coeffs();
+  return true;
 }
 
 void StepperNewton::place_first_guess(const State& state, double time_end) {
@@ -342,6 +364,11 @@ SolveReport StepperNewton::substep(State& state, double time_end, double h) {
   set_up(state, h);
   place_first_guess(state, time_end);
   SolveReport report = minimise();
+  for (int n = 0; n < ContactHold::kMaxRepeats && report.ok() && free_pulled(); ++n) {
+    const int n_iterations = report.iterations;
+    report = minimise();
+    report.iterations += n_iterations;
+  }
   if (report.ends_run()) return report;
   if (hold_) {
     velocities_ = (positions_ - positions_begin_) / interval_;

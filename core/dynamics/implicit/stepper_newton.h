@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 
 #include "core/dynamics/implicit/contact_hold.h"
 #include "core/dynamics/stepper.h"
@@ -37,6 +38,8 @@ class StepperNewton final : public Stepper {
  private:
   void set_up(const State& state, double h);
   void hold(const State& state, double h);
+  void add_holds(std::span<const ContactHold::Held> holds, double sign);
+  bool free_pulled();
   void place_first_guess(const State& state, double time_end);
   SolveReport minimise();
   bool is_stable();

@@ -40,7 +40,10 @@ StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& opt
     steady_side_.resize(model.n_vertices(), 3);
     proposed_.resize(3, model.n_vertices());
   }
-  if (model_.contact) hold_.emplace(model_, kHeldShare);
+  if (model_.contact) {
+    hold_.emplace(model_, kHeldShare, Pressing::of_own_mass);
+    velocities_.resize(3, model.n_vertices());
+  }
   if (model.air) {
     air_forces_.resize(3, model.n_vertices());
     other_forces_ = model.gravity * model.masses.transpose();
@@ -101,9 +104,8 @@ void StepperProjective::hold(const State& state, double h) {
   const PartScope scope(observer_, Part::contact);
   was_held_ = is_held_;
   std::fill(is_held_.begin(), is_held_.end(), char{0});
-  for (const ContactPass::Touch& touch : contact_memory_.touches())
-    is_held_[touch.vertex] = is_free_[touch.vertex];
-  hold_->choose(contact_memory_.touches(), state, h);
+  hold_->choose(contact_memory_, state, h);
+  for (const ContactHold::Held& held : hold_->held()) is_held_[held.vertex] = is_free_[held.vertex];
   if (is_held_ == was_held_) return;
   for (int i = 0; i < model_.n_vertices(); ++i)
     matrix_.valuePtr()[matrix_.outerIndexPtr()[i]] =
@@ -161,14 +163,33 @@ void StepperProjective::set_right_side(double time_end, double h) {
   };
   add_up(time_end, h, projected, right_side_);
   if (!hold_) return;
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    if (is_held_[i] != 0)
+      right_side_.row(i) += hold_excess(VertexId(i)) * positions_.col(i).transpose();
   for (const ContactHold::Held& held : hold_->held())
-    if (is_held_[held.vertex])
-      right_side_.row(held.vertex) += (freedom(held, h) * positions_.col(held.vertex)).transpose();
+    if (is_held_[held.vertex] != 0)
+      right_side_.row(held.vertex) -=
+          (held.resistance / (h * h) * positions_.col(held.vertex)).transpose();
 }
 
-/// Excess of the matrix where the held vertex may slip [N/m].
-Mat3 StepperProjective::freedom(const ContactHold::Held& held, double h) const {
-  return kHeldShare * diagonal_[held.vertex] * Mat3::Identity() - held.resistance / (h * h);
+/// Excess of the matrix on the diagonal for the hold of a vertex, whichever way it is held [N/m].
+double StepperProjective::hold_excess(VertexId vertex) const {
+  return kHeldShare * diagonal_[vertex];
+}
+
+// A vertex that is freed moves little in the rounds that are left, as the matrix goes on holding
+// it. So it goes on from where its forces take it alone, if that is off the solid.
+bool StepperProjective::free_pulled(double h) {
+  if (!hold_) return false;
+  velocities_ = (positions_ - positions_begin_) / h;
+  const auto freed = hold_->free_pulled(contact_memory_, velocities_, h);
+  for (const ContactHold::Held& held : freed) {
+    const VertexId v = held.vertex;
+    predicted_.col(v) -= h * h / model_.masses[v] * held.force;
+    const double rise = held.normal.dot(predicted_.col(v) - positions_.col(v));
+    positions_.col(v) += std::max(rise, 0.0) * held.normal;
+  }
+  return !freed.empty();
 }
 
 void StepperProjective::start_acceleration(double time_end, double h) {
@@ -194,12 +215,17 @@ double StepperProjective::energy_change(const LoadedRows& change, double h) cons
     if (lengths > 0)
       sum -= targets_[s].weight * targets_[s].length * (end - begin).dot(end + begin) / lengths;
   }
-  if (hold_)
-    for (const ContactHold::Held& held : hold_->held()) {
-      const Vec3 begin = positions_.col(held.vertex);
-      const Vec3 end = proposed_.col(held.vertex);
-      if (is_held_[held.vertex]) sum -= (end - begin).dot(freedom(held, h) * (end + begin)) / 2;
-    }
+  if (!hold_) return sum;
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    if (is_held_[i] != 0)
+      sum -= hold_excess(VertexId(i)) / 2 *
+             (proposed_.col(i) - positions_.col(i)).dot(proposed_.col(i) + positions_.col(i));
+  for (const ContactHold::Held& held : hold_->held()) {
+    const Vec3 begin = positions_.col(held.vertex);
+    const Vec3 end = proposed_.col(held.vertex);
+    if (is_held_[held.vertex] != 0)
+      sum += (end - begin).dot(held.resistance * (end + begin)) / (2 * h * h);
+  }
   return sum;
 }
 
@@ -220,9 +246,10 @@ void StepperProjective::accelerate(double h) {
 // its forces balance, however few the rounds: so they begin at x + h v, and not where the forces
 // alone would take it. Cloth that falls is ahead of that by h^2 g, cloth that is held up is not,
 // and one share for all, that with which the last substep fell, tells them apart without bending
-// anything. Held vertices, whom rounds let slip but little, begin where their forces take them
-// without the remembered ones: alone these would throw a light vertex far away from its neighbours.
-// Friction of one that slips, which rounds do not find, stays, as far as it brakes.
+// anything. Held vertices, whom rounds let slip but little, begin where they come to alone, without
+// the remembered forces: these would throw a light vertex far away from its neighbours. Along the
+// normal that is where they are held, and across it where the hold, which is their friction, lets a
+// mass come.
 void StepperProjective::place_first_guess(double time_end, double h) {
   positions_ = positions_begin_ + h * velocities_begin_;
   positions_.colwise() += fall_share_ * h * h * model_.gravity;
@@ -238,14 +265,10 @@ void StepperProjective::place_first_guess(double time_end, double h) {
   for (const ContactHold::Held& held : hold_->held()) {
     const VertexId v = held.vertex;
     if (!is_held_[v]) continue;
-    const double whole = kHeldShare * hold_->resistances()[v];
-    const Vec3 force = contact_memory_.forces().col(v);
     const Vec3 way = positions_begin_.col(v) + h * held.velocity - positions_.col(v);
-    const Vec3 held_way = held.resistance * way / whole;
-    const Vec3 brake = h * h / model_.masses[v] * (force - held.resistance * force / whole);
-    const double slide = (way - held_way).norm();
-    const double share = brake.norm() > slide ? slide / brake.norm() : 1;
-    positions_.col(v) += held_way + share * brake;
+    const Vec3 along = held.normal.dot(way) * held.normal;
+    const Mat3 with_mass = model_.masses[v] * Mat3::Identity() + held.resistance;
+    positions_.col(v) += along + with_mass.inverse() * (held.resistance * (way - along));
   }
 }
 
@@ -278,7 +301,9 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
   if (!factor_report_.ok()) return factor_report_;
   {
     const PartScope scope(observer_, Part::forces);
-    set_steady_forces(forces_);
+    forces_.setZero();
+    add_gravity(model_, forces_);
+    if (contact_memory_.has_forces()) forces_ += contact_memory_.forces();
     if (model_.air) add_air_forces(state, h);
     for (int i = 0; i < model_.n_vertices(); ++i) {
       if (model_.hangs(VertexId(i))) continue;
@@ -293,6 +318,7 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
   for (int round = 0; round < options().iterations; ++round) {
     {
       const PartScope scope(observer_, Part::assembly);
+      if (round > 0 && free_pulled(h) && acceleration_) start_acceleration(time_end, h);
       set_right_side(time_end, h);
     }
     const PartScope scope(observer_, Part::solve);

@@ -61,7 +61,8 @@ class StepperProjective final : public Stepper {
   template <class PullOfSpring>
   void add_up(double time_end, double h, const PullOfSpring& pull_of, VertexRows& side) const;
   void set_right_side(double time_end, double h);
-  Mat3 freedom(const ContactHold::Held& held, double h) const;
+  bool free_pulled(double h);
+  double hold_excess(VertexId vertex) const;
   void start_acceleration(double time_end, double h);
   void accelerate(double h);
   /// Change of what the rounds lower [J], from positions_ to proposed_, which are `change` apart.
@@ -78,6 +79,7 @@ class StepperProjective final : public Stepper {
   std::vector<PinnedEntry> pinned_entries_;
   std::vector<Target> targets_;
   Positions velocities_begin_;  // start of the substep [m/s]
+  Positions velocities_;        // end of a round; models with contact only
   Positions forces_;
   Positions air_forces_;    // drag in the substep; models with air only [N]
   Positions other_forces_;  // all but drag, in the last substep; models with air only [N]

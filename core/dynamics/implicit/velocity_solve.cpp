@@ -76,7 +76,6 @@ SolveReport VelocitySolve::solve_as_asked(const SystemMatrix& matrix, const Posi
     if (!report.ok()) return report;
   }
   const PartScope scope(observer, Part::solve);
-  guess();
   SolveReport report = solver_->solve(flat(rhs), flat(change_));
   if (!is_direct(kind_)) keep_momentum(matrix, rhs);
   return report;
@@ -117,8 +116,8 @@ SolveReport VelocitySolve::solve(const SystemMatrix& matrix, const Positions& rh
   return report;
 }
 
-SolveReport VelocitySolve::advance(SystemMatrix& matrix, Positions& rhs, State& state,
-                                   double time_end, double h, PartObserver* observer) {
+SolveReport VelocitySolve::find_changes(SystemMatrix& matrix, Positions& rhs, const State& state,
+                                        double time_end, double h, PartObserver* observer) {
   for (std::size_t p = 0; p < model_.pins.size(); ++p) {
     const Pin& pin = model_.pins[p];
     pin_changes_.col(static_cast<Eigen::Index>(p)) =
@@ -126,15 +125,31 @@ SolveReport VelocitySolve::advance(SystemMatrix& matrix, Positions& rhs, State& 
         state.velocities.col(pin.vertex);
   }
   matrix.prescribe(pin_changes_, flat(rhs));
+  guess();
+  return find_changes_again(matrix, rhs, state, h, observer);
+}
+
+SolveReport VelocitySolve::find_changes_again(const SystemMatrix& matrix, const Positions& rhs,
+                                              const State& state, double h,
+                                              PartObserver* observer) {
   const double asked = rhs.norm();
   SolveReport report = solve(matrix, rhs, state, observer);
   const double weight = h * model_.gravity.norm() * model_.masses.norm();
   if (asked < weight) report.relative_residual *= asked / weight;
-  if (report.ends_run()) return report;
+  return report;
+}
+
+void VelocitySolve::move(State& state, double time_end, double h) {
   learn();
   state.velocities += change_;
   state.positions += h * state.velocities;
   for (const Pin& pin : model_.pins) state.positions.col(pin.vertex) = pin.position(time_end);
+}
+
+SolveReport VelocitySolve::advance(SystemMatrix& matrix, Positions& rhs, State& state,
+                                   double time_end, double h, PartObserver* observer) {
+  SolveReport report = find_changes(matrix, rhs, state, time_end, h, observer);
+  if (!report.ends_run()) move(state, time_end, h);
   return report;
 }
 

@@ -25,12 +25,21 @@ class VelocitySolve {
   /// Call it when pins have changed in number or vertex.
   void choose_pins(SystemMatrix& matrix);
 
-  /// The state moves by h [s] to `time_end` unless the report ends the run. An iterative solver
-  /// starts from what the last changes lead to, and what it leaves has no momentum. Where it gives
-  /// up, a factor solves in its place, in some of the next substeps too, and the report says so.
-  /// The residual is relative to the right-hand side or to what weight does in the substep,
-  /// whichever is larger. Matrix, reduced to parents, and right-hand side [N s] are changed. The
-  /// observer may be null.
+  /// Finds by how much velocities change in h [s], to `time_end`. An iterative solver starts from
+  /// what the last changes lead to, and what it leaves has no momentum. Where it gives up, a factor
+  /// solves in its place, in some of the next substeps too, and the report says so. The residual is
+  /// relative to the right-hand side or to what weight does in the substep, whichever is larger.
+  /// Matrix, reduced to parents, and right-hand side [N s] are changed. The observer may be null.
+  SolveReport find_changes(SystemMatrix& matrix, Positions& rhs, const State& state,
+                           double time_end, double h, PartObserver* observer);
+  /// Finds them once more in the substep, for another matrix and right-hand side of free vertices.
+  SolveReport find_changes_again(const SystemMatrix& matrix, const Positions& rhs,
+                                 const State& state, double h, PartObserver* observer);
+  const Positions& changes() const { return change_; }  ///< [m/s]
+  /// Moves the state by the changes that were found.
+  void move(State& state, double time_end, double h);
+
+  /// Finds the changes and moves the state, unless the report ends the run.
   SolveReport advance(SystemMatrix& matrix, Positions& rhs, State& state, double time_end, double h,
                       PartObserver* observer);
 
