@@ -33,7 +33,7 @@ class LaneProjections final : public Projections {
  private:
   void sweep(const LaneView& view, Multipliers of_bends);
 
-  bool keeps_multipliers_ = false;  // those of the next solve
+  bool keeps_multipliers_ = false;  // the next solve does
   SpringProgram springs_;
   BendProgram bends_;
   HangingProgram hanging_;
