@@ -28,9 +28,10 @@ class Projections {
   /// constraints.
   virtual double sweeps_per_round() const = 0;
 
-  /// Makes the multipliers zero.
+  /// Makes the multipliers zero, and keeps those of the next solve.
   virtual void forget() = 0;
-  /// Sum of |C + compliance/h^2 lambda|^2 over the constraints of the finest mesh [m^2].
+  /// Sum of |C + compliance/h^2 lambda|^2 over the constraints of the finest mesh [m^2], with the
+  /// multipliers that forget() made or the solve after it.
   virtual double squared_residual(const LaneView& view) = 0;
 
   /// Names what the options ask for and this cloth has not, in a sentence's middle; empty for

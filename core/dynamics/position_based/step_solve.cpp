@@ -58,6 +58,7 @@ LaneView StepSolve::view() {
 
 void StepSolve::solve(int rounds) {
   std::copy(first_moves_.begin(), first_moves_.end(), array(move));
+  projections_->forget();
   if (rounds > 0) projections_->solve(view(), rounds);
 }
 

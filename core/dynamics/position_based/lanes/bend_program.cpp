@@ -132,7 +132,7 @@ void BendProgram::refresh_pins(const float* inverse_masses) {
 //   (J W J^T + alpha) dlambda = -(C + alpha lambda),
 // by L z = right-hand side on the way out, L^T dlambda = D^-1 z on the way back, where the vertex
 // two places on gets the last of its three shares of W J^T dlambda. x, y and z alike.
-template <class Lanes, bool first, class EdgeTo>
+template <class Lanes, Multipliers use, class EdgeTo>
 void BendProgram::eliminate(const BendSet& set, int lane, float* scratch, const EdgeTo& edge_to) {
   const Place* const places = places_of(set);
   const float* const multipliers = multipliers_.data() + set.first_multiplier + lane;
@@ -147,7 +147,7 @@ void BendProgram::eliminate(const BendSet& set, int lane, float* scratch, const 
     const Place& place = places[i];
     const Vec3Lanes<Lanes> edge_after = edge_to(i + 2);
     Vec3Lanes<Lanes> z = of(place.before) * edge - of(place.after) * edge_after;
-    if constexpr (!first)
+    if constexpr (use == Multipliers::kept)
       z = z - of(place.compliance) * three_at<Lanes>(multipliers + kMultiplierFloats * i);
     z = (z - of(place.next_but_one) * z_2) - of(place.next) * z_1;
     store_three(of(place.inverse_pivot) * z, scratch + kMultiplierFloats * i);
@@ -158,7 +158,7 @@ void BendProgram::eliminate(const BendSet& set, int lane, float* scratch, const 
 }
 
 /// move_by(place, how far to move the vertex there)
-template <class Lanes, bool first, class MoveBy>
+template <class Lanes, Multipliers use, class MoveBy>
 void BendProgram::substitute(const BendSet& set, int lane, const float* scratch,
                              const MoveBy& move_by) {
   const Place* const places = places_of(set);
@@ -176,7 +176,8 @@ void BendProgram::substitute(const BendSet& set, int lane, const float* scratch,
     const Vec3Lanes<Lanes> change =
         (three_at<Lanes>(scratch + kMultiplierFloats * i) - of(place_2.next_but_one) * change_2) -
         of(place_1.next) * change_1;
-    add_three<first>(change, multipliers + kMultiplierFloats * i);
+    if constexpr (use != Multipliers::passing)
+      add_three<use == Multipliers::begun>(change, multipliers + kMultiplierFloats * i);
     move_by(i + 2,
             of(place_2.inverse_mass) * ((of(place.after) * change - of(place_1.middle) * change_1) +
                                         of(place_2.before) * change_2));
@@ -188,27 +189,27 @@ void BendProgram::substitute(const BendSet& set, int lane, const float* scratch,
   move_by(0, of(places[0].inverse_mass) * (of(places[0].before) * change_1));
 }
 
-template <class Lanes, bool first, bool in_groups>
+template <class Lanes, Multipliers use, bool in_groups>
 void BendProgram::solve(const LaneView& view, const BendSet& set, int lane) {
   const LaneView v = view;
   const ThreadSlots<Lanes, in_groups> at{sets_.slots.data() + set.first_slot, lane};
   Vec3Lanes<Lanes> begin = at.load(v.begins, 0);
   Vec3Lanes<Lanes> move = at.load(v.moves, 0);
-  eliminate<Lanes, first>(set, lane, scratch_.data(), [&](int place) {
+  eliminate<Lanes, use>(set, lane, scratch_.data(), [&](int place) {
     const Vec3Lanes<Lanes> begin_before = begin;
     const Vec3Lanes<Lanes> move_before = move;
     begin = at.load(v.begins, place);
     move = at.load(v.moves, place);
     return (begin - begin_before) + (move - move_before);
   });
-  substitute<Lanes, first>(set, lane, scratch_.data(), [&](int place, const Vec3Lanes<Lanes>& by) {
+  substitute<Lanes, use>(set, lane, scratch_.data(), [&](int place, const Vec3Lanes<Lanes>& by) {
     at.store(at.load(v.moves, place) + by, v.moves, place);
   });
 }
 
 // Row by row for sets side by side, so that a line of the cache is used at once; thread by thread
 // between.
-template <bool first>
+template <Multipliers use>
 void BendProgram::solve_groups(const LaneView& view, const BendSet* sets, int n_sets) {
   const LaneView v = view;
   const int* const slots = sets_.slots.data() + sets->first_slot;
@@ -226,10 +227,10 @@ void BendProgram::solve_groups(const LaneView& view, const BendSet* sets, int n_
     }
   for (int set = 0; set < n_sets; ++set) {
     float* const scratch = scratch_of(set, 0);
-    eliminate<Float4, first>(sets[set], 0, scratch, [=](int place) {
+    eliminate<Float4, use>(sets[set], 0, scratch, [=](int place) {
       return three_at<Float4>(scratch + kMultiplierFloats * place);
     });
-    substitute<Float4, first>(sets[set], 0, scratch, [=](int place, const Vec3Lanes<Float4>& by) {
+    substitute<Float4, use>(sets[set], 0, scratch, [=](int place, const Vec3Lanes<Float4>& by) {
       store_three(by, scratch + kMultiplierFloats * place);
     });
   }
@@ -242,7 +243,7 @@ void BendProgram::solve_groups(const LaneView& view, const BendSet* sets, int n_
 
 // Four rows at once: what is in four pieces of a row, for four rows, is turned into four places of
 // four rows, and back.
-template <bool first>
+template <Multipliers use>
 void BendProgram::solve_rows(const LaneView& view, const BendSet& set) {
   const LaneView v = view;
   std::array<int, kLanesOfSet> rows;
@@ -277,10 +278,10 @@ void BendProgram::solve_rows(const LaneView& view, const BendSet& set) {
       d.store(scratch_of(group, 3, component));
     }
   }
-  eliminate<Float4, first>(set, 0, scratch, [=](int place) {
+  eliminate<Float4, use>(set, 0, scratch, [=](int place) {
     return three_at<Float4>(scratch + kMultiplierFloats * place);
   });
-  substitute<Float4, first>(set, 0, scratch, [=](int place, const Vec3Lanes<Float4>& by) {
+  substitute<Float4, use>(set, 0, scratch, [=](int place, const Vec3Lanes<Float4>& by) {
     store_three(by, scratch + kMultiplierFloats * place);
   });
   std::fill(scratch + kMultiplierFloats * (set.n_bends + 2),
@@ -304,7 +305,7 @@ void BendProgram::solve_rows(const LaneView& view, const BendSet& set) {
     }
 }
 
-template <bool first>
+template <Multipliers use>
 void BendProgram::sweep(const LaneView& view) {
   const std::vector<BendSet>& sets = sets_.sets;
   for (std::size_t i = 0; i < sets.size(); ++i) {
@@ -312,21 +313,28 @@ void BendProgram::sweep(const LaneView& view) {
     if (is_lane_by_lane_) {
       for (int lane = 0; lane < kLanesOfSet; ++lane)
         if (set.chains[static_cast<std::size_t>(lane)] >= 0)
-          set.in_groups ? solve<Float1, first, true>(view, set, lane)
-                        : solve<Float1, first, false>(view, set, lane);
+          set.in_groups ? solve<Float1, use, true>(view, set, lane)
+                        : solve<Float1, use, false>(view, set, lane);
     } else if (set.in_groups) {
-      solve_groups<first>(view, &set, 1 + set.n_beside);
+      solve_groups<use>(view, &set, 1 + set.n_beside);
       i += static_cast<std::size_t>(set.n_beside);
     } else if (set.stride > 0) {
-      solve_rows<first>(view, set);
+      solve_rows<use>(view, set);
     } else {
-      solve<Float4, first, false>(view, set, 0);
+      solve<Float4, use, false>(view, set, 0);
     }
   }
 }
 
-void BendProgram::sweep(const LaneView& view, bool is_first) {
-  is_first ? sweep<true>(view) : sweep<false>(view);
+void BendProgram::sweep(const LaneView& view, Multipliers multipliers) {
+  switch (multipliers) {
+    case Multipliers::passing:
+      return sweep<Multipliers::passing>(view);
+    case Multipliers::begun:
+      return sweep<Multipliers::begun>(view);
+    case Multipliers::kept:
+      return sweep<Multipliers::kept>(view);
+  }
 }
 
 /// visit(x, y and z of the errors of four elements)

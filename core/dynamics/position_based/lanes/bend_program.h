@@ -9,6 +9,13 @@
 
 namespace pleat {
 
+/// Says what a sweep makes of multipliers.
+enum class Multipliers {
+  passing,  ///< zero at first, and not kept
+  begun,    ///< zero at first
+  kept,
+};
+
 /// The bending elements of a model that join no hanging vertex: each is one vector constraint,
 /// linear in the positions. Those of a thread are solved at once, four threads at a time. Which
 /// elements are which threads' does not depend on the layout, nor need threads be a grid.
@@ -22,8 +29,8 @@ class BendProgram {
   /// Takes over inverse masses of each slot, see LaneView. To be called before the first sweep.
   void refresh_pins(const float* inverse_masses);
 
-  /// Solves each thread once; the first sweep of a substep starts from multipliers of zero.
-  void sweep(const LaneView& view, bool is_first);
+  /// Solves each thread once. A substep's first sweep is no `kept` one.
+  void sweep(const LaneView& view, Multipliers multipliers);
   /// Makes the multipliers zero.
   void forget() { std::fill(multipliers_.begin(), multipliers_.end(), 0.0f); }
   std::span<float> multipliers() { return multipliers_; }
@@ -53,17 +60,17 @@ class BendProgram {
   const Place* places_of(const BendSet& set) const { return places_.data() + set.first_place; }
   std::vector<Place> make_places(const BendSet& set, const float* inverse_masses) const;
 
-  template <bool first>
+  template <Multipliers use>
   void sweep(const LaneView& view);
-  template <class Lanes, bool first, bool in_groups>
+  template <class Lanes, Multipliers use, bool in_groups>
   void solve(const LaneView& view, const BendSet& set, int lane);
-  template <bool first>
+  template <Multipliers use>
   void solve_groups(const LaneView& view, const BendSet* sets, int n_sets);
-  template <bool first>
+  template <Multipliers use>
   void solve_rows(const LaneView& view, const BendSet& set);
-  template <class Lanes, bool first, class EdgeTo>
+  template <class Lanes, Multipliers use, class EdgeTo>
   void eliminate(const BendSet& set, int lane, float* scratch, const EdgeTo& edge_to);
-  template <class Lanes, bool first, class MoveBy>
+  template <class Lanes, Multipliers use, class MoveBy>
   void substitute(const BendSet& set, int lane, const float* scratch, const MoveBy& move_by);
   template <class Visit>
   void visit_errors(const LaneView& view, const Visit& visit) const;

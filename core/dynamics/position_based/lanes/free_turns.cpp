@@ -17,6 +17,9 @@ constexpr double kLeastSteepness = 0.7;
 /// Axes about which cloth has less than this share of its largest inertia do not turn it: those of
 /// straight threads.
 constexpr double kLeastInertia = 1e-6;
+/// Largest turn within a substep [rad]. It lengthens cloth by its square over 2; a larger one comes
+/// of cloth that is all but in one point.
+constexpr double kLargestTurn = 0.1;
 
 bool stays(const Motion& motion) {
   return motion.kind == Motion::Kind::hold ||
@@ -159,7 +162,7 @@ void FreeTurns::keep(const LaneView& v, const Vec3& origin) const {
     all.products -= mass_ * centre * centre.transpose();
   }
   const Vec3 turn = turn_against(all);
-  if (!turn.allFinite()) return;
+  if (!(turn.norm() <= kLargestTurn)) return;
   const auto lanes_of = [](const Vec3& vector) {
     const auto all_lanes = [](double number) { return Float4::all(static_cast<float>(number)); };
     return Vec3Lanes<Float4>{all_lanes(vector[0]), all_lanes(vector[1]), all_lanes(vector[2])};

@@ -11,13 +11,24 @@ void LaneProjections::refresh_rest_lengths(const ClothModel& model) {
   hanging_.refresh_rest_lengths(model);
 }
 
-void LaneProjections::sweep(const LaneView& view, bool is_first) {
-  bends_.sweep(view, is_first);
+void LaneProjections::solve(const LaneView& view, int rounds) {
+  const bool needs_none = rounds == 1 && !keeps_multipliers_;
+  for (int round = 0; round < rounds; ++round)
+    sweep(view, needs_none   ? Multipliers::passing
+                : round == 0 ? Multipliers::begun
+                             : Multipliers::kept);
+  keeps_multipliers_ = false;
+}
+
+void LaneProjections::sweep(const LaneView& view, Multipliers of_bends) {
+  const bool is_first = of_bends != Multipliers::kept;
+  bends_.sweep(view, of_bends);
   springs_.sweep(view, is_first);
   hanging_.sweep(view, is_first);
 }
 
 void LaneProjections::forget() {
+  keeps_multipliers_ = true;
   springs_.forget();
   bends_.forget();
   hanging_.forget();

@@ -19,11 +19,11 @@ class LaneProjections final : public Projections {
   }
   void refresh_rest_lengths(const ClothModel& model) override;
 
-  void solve(const LaneView& view, int rounds) override {
-    for (int round = 0; round < rounds; ++round) sweep(view, round == 0);
-  }
+  void solve(const LaneView& view, int rounds) override;
   /// One round; the first of a substep starts from multipliers of zero.
-  void sweep(const LaneView& view, bool is_first);
+  void sweep(const LaneView& view, bool is_first) {
+    sweep(view, is_first ? Multipliers::begun : Multipliers::kept);
+  }
 
   double sweeps_per_round() const override { return 1; }
 
@@ -31,6 +31,9 @@ class LaneProjections final : public Projections {
   void forget() override;
 
  private:
+  void sweep(const LaneView& view, Multipliers of_bends);
+
+  bool keeps_multipliers_ = false;  // the next solve does
   SpringProgram springs_;
   BendProgram bends_;
   HangingProgram hanging_;

@@ -90,7 +90,8 @@ struct GatheredSweeps {
 
   /// Projects each constraint once. The first sweep of a substep starts from multipliers of zero.
   void sweep(GatheredVertices& vertices, const Relaxation& relaxation, bool is_first) {
-    if (!bends.empty()) bends.sweep(vertices.lanes(), is_first);
+    if (!bends.empty())
+      bends.sweep(vertices.lanes(), is_first ? Multipliers::begun : Multipliers::kept);
     if (is_first) springs.forget();
     springs.sweep(vertices.begins(), vertices.moves(), relaxation);
     if (!hanging.empty()) hanging.sweep(vertices.lanes(), is_first);

@@ -112,11 +112,14 @@ struct SweptThreads {
 void check_solved_at_once(const BentThreads& threads) {
   SweptThreads swept(threads);
   const double before = swept.program.squared_residual(swept.view());
-  swept.program.sweep(swept.view(), true);
+  swept.program.sweep(swept.view(), Multipliers::begun);
   const Positions expected = threads.solved_together();
   CHECK((swept.moved(threads) - expected).cwiseAbs().maxCoeff() <
         1e-4 * expected.cwiseAbs().maxCoeff());
   CHECK(swept.program.squared_residual(swept.view()) < 1e-9 * before);
+  SweptThreads passing(threads);
+  passing.program.sweep(passing.view(), Multipliers::passing);
+  CHECK(passing.numbers == swept.numbers);
 }
 
 /// Vertices row by row, numbered by chance.
@@ -184,7 +187,8 @@ TEST_CASE("bend program: sweeps over crossing threads and rings come to the comm
         threads.bend(vertex(r, c), vertex(r + 1, c), vertex(r + 2, c), 0.5, 0.3);
     }
   SweptThreads swept(threads);
-  for (int sweep = 0; sweep < 60; ++sweep) swept.program.sweep(swept.view(), sweep == 0);
+  for (int sweep = 0; sweep < 60; ++sweep)
+    swept.program.sweep(swept.view(), sweep == 0 ? Multipliers::begun : Multipliers::kept);
   const Positions expected = threads.solved_together();
   CHECK((swept.moved(threads) - expected).cwiseAbs().maxCoeff() <
         1e-5 * expected.cwiseAbs().maxCoeff());
@@ -206,8 +210,8 @@ TEST_CASE("bend program: four lanes together give what they give one by one, to 
   SweptThreads apart(threads);
   apart.program.compute_lane_by_lane();
   for (int sweep = 0; sweep < 4; ++sweep) {
-    together.program.sweep(together.view(), sweep == 0);
-    apart.program.sweep(apart.view(), sweep == 0);
+    together.program.sweep(together.view(), sweep == 0 ? Multipliers::begun : Multipliers::kept);
+    apart.program.sweep(apart.view(), sweep == 0 ? Multipliers::begun : Multipliers::kept);
   }
   CHECK(together.numbers == apart.numbers);
 }
