@@ -181,7 +181,7 @@ void ContactMemory::let_go(VertexId vertex, State& state, double h, double resis
 // A vertex that is pressed ends on the surface, which curves away from the tangent that the solve
 // held it to, and without velocity off it. This takes half of the way round from it, which the
 // force does not know of: on a ball of radius R the force comes to m (g.n - w^2/2R). One that is
-// not pressed by as much as that takes does without the force.
+// not pressed by as much as that takes leaves, and is given back what pulled it.
 void ContactMemory::settle(const Plan& plan, State& state, double h, double resistance) {
   const VertexId v = plan.touch.vertex;
   auto force = forces_.col(v);
@@ -190,8 +190,9 @@ void ContactMemory::settle(const Plan& plan, State& state, double h, double resi
   const double turn = std::max(plan.normal.dot(plan.velocity - solid_velocity), 0.0);
   const double pressing = plan.normal.dot(force);
   if (pressing <= model_.masses[v] / h * turn) {
-    const Vec3 pull = pressing * plan.normal;
-    const Vec3 change = h * (pull / plan.resistance + (force - pull) / resistance);
+    const Vec3 pull = std::min(pressing, 0.0) * plan.normal;
+    const Vec3 rubbing = force - pressing * plan.normal;
+    const Vec3 change = h * (pull / plan.resistance + rubbing / resistance);
     velocity -= change;
     state.positions.col(v) -= h * change;
     force.setZero();
