@@ -25,9 +25,6 @@ Vec3 in_cone(const Vec3& force, const Vec3& normal, double friction) {
   return size > most ? Vec3(pressing * normal + most / size * rubbing) : force;
 }
 
-/// Share of Coulomb's bound beyond which a vertex slips: one at the bound is there to rounding.
-constexpr double kStickSlack = 1e-6;
-
 /// Adds the touches of vertices that are not among them yet; both in the order of the vertices.
 void join_touches(std::span<const Touch> more, std::vector<Touch>& touches) {
   const auto is_before = [](const Touch& a, const Touch& b) { return a.vertex < b.vertex; };
@@ -98,10 +95,9 @@ void ContactMemory::foresee(const State& begin, double h) {
 // With w the slide across the solid's normal n and u the solid's velocity, the vertex comes to p =
 // x + h (u + w) along the tangent. There the gap is g and the normal n', and u + (n'.w - g/h) n'
 // leads onto the surface. Friction is at most the impulse b = mu h p, with p = n'.f less what turns
-// the way round the solid, see settle(). At the slip s, which
-// changes as in the last substep, a hold of the share b/(r s) across n' takes that much. Where the
-// remembered force across n' and all of r s together stay within b, the vertex sticks. While it
-// slips its friction is of this hold alone, and none is remembered.
+// the way round the solid, see settle(). At the slip s, which changes as in the last substep or not
+// at all, whichever is faster, a hold of the share b/(r s) across n' takes that much; with all of r
+// the vertex sticks. While it slips its friction is of this hold alone, and none is remembered.
 ContactMemory::Plan ContactMemory::planned(const Touch& touch, const State& begin, double h,
                                            double resistance, Pressing of) {
   const VertexId v = touch.vertex;
@@ -123,11 +119,10 @@ ContactMemory::Plan ContactMemory::planned(const Touch& touch, const State& begi
   const double rubbing = std::max(pressing - model_.masses[v] / h * turn, 0.0);
   const double brake = friction_of(touch) * h * rubbing;
   const Vec3 last_change = begin.velocities.col(v) - velocities_begin_.col(v);
-  const Vec3 slip = across(along + last_change, gap.normal);
-  const double whole = resistance * slip.norm();
-  const bool sticks = brake > 0 && (1 + kStickSlack) * brake >=
-                                       (resistance * slip - h * across(force, gap.normal)).norm();
-  if (brake > 0) plan.grip = brake >= whole ? 1 : brake / whole;
+  const double slip = std::max(across(along + last_change, gap.normal).norm(), along.norm());
+  const double whole = resistance * slip;
+  const bool sticks = brake > 0 && brake >= whole;
+  if (brake > 0) plan.grip = sticks ? 1 : brake / whole;
   if (!sticks && brake > 0 && whole > 0 && of == Pressing::of_own_mass) {
     const Vec3 fall = begin.velocities.col(v) + h * model_.gravity;
     const double stop = model_.masses[v] * gap.normal.dot(plan.velocity - fall);
@@ -181,7 +176,7 @@ void ContactMemory::let_go(VertexId vertex, State& state, double h, double resis
 // A vertex that is pressed ends on the surface, which curves away from the tangent that the solve
 // held it to, and without velocity off it. This takes half of the way round from it, which the
 // force does not know of: on a ball of radius R the force comes to m (g.n - w^2/2R). One that is
-// not pressed by as much as that takes does without the force.
+// not pressed by as much as that takes leaves, and is given back what pulled it.
 void ContactMemory::settle(const Plan& plan, State& state, double h, double resistance) {
   const VertexId v = plan.touch.vertex;
   auto force = forces_.col(v);
@@ -190,8 +185,9 @@ void ContactMemory::settle(const Plan& plan, State& state, double h, double resi
   const double turn = std::max(plan.normal.dot(plan.velocity - solid_velocity), 0.0);
   const double pressing = plan.normal.dot(force);
   if (pressing <= model_.masses[v] / h * turn) {
-    const Vec3 pull = pressing * plan.normal;
-    const Vec3 change = h * (pull / plan.resistance + (force - pull) / resistance);
+    const Vec3 pull = std::min(pressing, 0.0) * plan.normal;
+    const Vec3 rubbing = force - pressing * plan.normal;
+    const Vec3 change = h * (pull / plan.resistance + rubbing / resistance);
     velocity -= change;
     state.positions.col(v) -= h * change;
     force.setZero();

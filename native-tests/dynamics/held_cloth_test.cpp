@@ -75,12 +75,11 @@ Collider slanted_plane(double friction, double slope) {
 
 }  // namespace
 
-// The explicit stepper remembers no contact: at its small steps it knows the ball by the sweep
-// alone.
-TEST_CASE("held cloth: a sheet slides off a ball as explicit steps let it", "[contact]") {
+// The stepper xpbd remembers no contact: in small steps it knows the ball by the sweep alone.
+TEST_CASE("held cloth: a sheet slides off a ball as small steps of xpbd let it", "[contact]") {
   constexpr double kDuration = 0.3;
   const double friction = GENERATE(0.0, 0.2);
-  const int cells = GENERATE(4, 8);
+  const int cells = GENERATE(6, 9);
   SheetOnSolid exact = sheet_on_ball(friction, cells);
   exact.run(method_of(&steppers::kXpbd, 1.0 / 12000), kDuration);
   const double way = exact.place().x() - kBallStart;
@@ -89,12 +88,14 @@ TEST_CASE("held cloth: a sheet slides off a ball as explicit steps let it", "[co
     double step;   // [s]
     double share;  // largest error, in shares of the way
   };
-  for (const Bound& bound : {Bound{1.0 / 240, 0.05}, Bound{1.0 / 960, 0.015}})
+  for (const Bound& bound : {Bound{1.0 / 240, 0.05}, Bound{1.0 / 960, 0.025}})
     for (const StepperType* type : holding_steppers()) {
+      // Its ten rounds leave more.
+      const double most = type == &steppers::kProjective ? 0.08 : bound.share;
       CAPTURE(type->name, friction, cells, bound.step);
       SheetOnSolid sheet = sheet_on_ball(friction, cells);
       sheet.run(method_of(type, bound.step), kDuration);
-      CHECK((sheet.place() - exact.place()).norm() < bound.share * way);
+      CHECK((sheet.place() - exact.place()).norm() < most * way);
     }
 }
 
