@@ -35,7 +35,9 @@ struct SheetOnSolid {
 void SheetOnSolid::run(const MethodOptions& options, double duration) {
   const auto stepper = make_stepper(model, options);
   const int n_steps = static_cast<int>(std::lround(duration / options.step));
-  for (int s = 0; s < n_steps; ++s) REQUIRE(stepper->advance(state, s * options.step).ok());
+  // Newton's last repeat may leave a direction of rounding, and says so.
+  for (int s = 0; s < n_steps; ++s)
+    REQUIRE_FALSE(stepper->advance(state, s * options.step).ends_run());
 }
 
 /// A sheet of this width [m] whose middle is there and whose first side has this direction; the
