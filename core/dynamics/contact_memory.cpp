@@ -28,11 +28,10 @@ Vec3 in_cone(const Vec3& force, const Vec3& normal, double friction) {
 /// Adds the touches of vertices that are not among them yet; both in the order of the vertices.
 void join_touches(std::span<const Touch> more, std::vector<Touch>& touches) {
   const auto is_before = [](const Touch& a, const Touch& b) { return a.vertex < b.vertex; };
-  const auto n_known = static_cast<std::ptrdiff_t>(touches.size());
-  for (const Touch& touch : more)
-    if (!std::binary_search(touches.begin(), touches.begin() + n_known, touch, is_before))
-      touches.push_back(touch);
-  std::inplace_merge(touches.begin(), touches.begin() + n_known, touches.end(), is_before);
+  for (const Touch& touch : more) {
+    const auto at = std::lower_bound(touches.begin(), touches.end(), touch, is_before);
+    if (at == touches.end() || is_before(touch, *at)) touches.insert(at, touch);
+  }
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ TEST_CASE("command table: an added part of a command is found and helped with", 
         "pleat whole PART    has parts\n  made-up [--fail]  does nothing\n  more\n");
   Arguments arguments({"made", "up"});
   CHECK_THROWS_WITH(take_command(parts, arguments, "whole"),
-                    "expected made-up after it, got \"made\"");
+                    "whole: expected made-up after it, got \"made\"");
 }
 
 TEST_CASE("command table: every command has help of its own, and all of them fit on one screen",
