@@ -242,22 +242,15 @@ void StepperProjective::accelerate(double h) {
   }
 }
 
-// Every round lowers the step's energy. Cloth at rest, from where it is, thus stays there only if
-// its forces balance, however few the rounds: so they begin at x + h v, and not where the forces
-// alone would take it. Cloth that falls is ahead of that by h^2 g, cloth that is held up is not,
-// and one share for all, that with which the last substep fell, tells them apart without bending
-// anything. Held vertices, whom rounds let slip but little, begin where they come to alone, without
-// the remembered forces: these would throw a light vertex far away from its neighbours. Along the
-// normal that is where they are held, and across it where the hold, which is their friction, lets a
-// mass come.
+// Starts without the remembered forces: alone they would throw a light vertex far away from its
+// neighbours. A held vertex begins where it comes to alone: along the normal where it is held, and
+// across it where the hold, which is its friction, lets a mass come.
 void StepperProjective::place_first_guess(double time_end, double h) {
-  positions_ = positions_begin_ + h * velocities_begin_;
-  positions_.colwise() += fall_share_ * h * h * model_.gravity;
-  if (hold_)
-    for (const ContactHold::Held& held : hold_->held())
-      positions_.col(held.vertex) =
-          predicted_.col(held.vertex) -
-          h * h / model_.masses[held.vertex] * contact_memory_.forces().col(held.vertex);
+  positions_ = predicted_;
+  if (contact_memory_.has_forces())
+    for (int i = 0; i < model_.n_vertices(); ++i)
+      if (!model_.hangs(VertexId(i)))
+        positions_.col(i) -= h * h / model_.masses[i] * contact_memory_.forces().col(i);
   for (const Pin& pin : model_.pins) positions_.col(pin.vertex) = pin.position(time_end);
   place_between_parents(model_.hanging, positions_);
   first_change_ = positions_;
@@ -279,15 +272,6 @@ void StepperProjective::add_air_forces(const State& begin, double h) {
 }
 
 void StepperProjective::remember_motion(const State& end, double h) {
-  Vec3 change = Vec3::Zero();
-  double mass = 0;
-  for (int i = 0; i < model_.n_vertices(); ++i) {
-    if (is_free_[i] == 0) continue;
-    change += model_.masses[i] * (end.velocities.col(i) - velocities_begin_.col(i));
-    mass += model_.masses[i];
-  }
-  const double whole_fall = h * mass * model_.gravity.squaredNorm();
-  if (whole_fall > 0) fall_share_ = std::clamp(change.dot(model_.gravity) / whole_fall, 0.0, 1.0);
   if (!model_.air) return;
   other_forces_ = (end.velocities - velocities_begin_) * model_.masses.asDiagonal() / h;
   other_forces_ -= air_forces_;
@@ -339,9 +323,8 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
   return report;
 }
 
-/// |b(x) - A x| over its value at the first guess, or over the weight where that is more, for the
-/// last substep: cloth that only falls or rests is guessed right, and what is left there is a share
-/// of nothing. Of cloth without weight, what rounding makes of A x is nothing to be solved either.
+/// |b(x) - A x| over its value where neither springs nor solids act, for the last substep. Cloth
+/// that only falls is predicted to rounding: what rounding makes of A x is nothing to be solved.
 void StepperProjective::store(State&, SolveReport& report) {
   if (!report.ok()) return;
   set_right_side(time_end_, options().step / substeps());
@@ -365,11 +348,7 @@ void StepperProjective::store(State&, SolveReport& report) {
     clear_hanging();
     last += column_.squaredNorm();
   }
-  double weight = 0;
-  for (int i = 0; i < model_.n_vertices(); ++i)
-    if (is_free_[i] != 0) weight += (model_.masses[i] * model_.gravity).squaredNorm();
-  const double scale = std::max({first, weight, rounding});
-  report.relative_residual = scale > 0 ? std::sqrt(last / scale) : 0;
+  report.relative_residual = first > 0 ? std::sqrt(last / std::max(first, rounding)) : 0;
 }
 
 }  // namespace pleat

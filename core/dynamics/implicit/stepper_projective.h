@@ -85,7 +85,8 @@ class StepperProjective final : public Stepper {
   Positions other_forces_;  // all but drag, in the last substep; models with air only [N]
   Positions predicted_;     // x + h v + h^2 M^-1 f_external; 0 where vertices hang
   Positions positions_;
-  Positions first_change_;  // way from the first guess, before solids, to the first round's end
+  Positions
+      first_change_;  // way from where neither springs nor solids act to the first round's end
   VertexRows right_side_;
   VertexRows solution_;
   Eigen::VectorXd column_;
@@ -93,8 +94,7 @@ class StepperProjective final : public Stepper {
   LoadedRows start_;        // start of the substep's first round
   VertexRows steady_side_;  // part of the right-hand side that no round changes
   Positions proposed_;
-  double time_end_ = 0;    // end of the last substep [s]
-  double fall_share_ = 1;  // share of a free fall's acceleration that the last substep had
+  double time_end_ = 0;  // end of the last substep [s]
 };
 
 }  // namespace pleat

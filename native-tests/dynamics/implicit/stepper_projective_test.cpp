@@ -222,20 +222,6 @@ TEST_CASE("projective: no accelerated round raises the energy, and refused ones 
   CHECK(n_refused > 1);
 }
 
-TEST_CASE("projective: a chain hangs at rest as its springs say, however few the rounds",
-          "[dynamics]") {
-  Chain chain;
-  chain.relaxation = 0.01;
-  ClothModel model = chain_model(chain);
-  const Positions expected = hanging_state(chain).positions;
-  const auto stepper = make_stepper(
-      model, projective(GENERATE(1, 2, 10), GENERATE(Acceleration::none, Acceleration::anderson)));
-  State state = hanging_state(chain);
-  for (int s = 0; s < 3000; ++s) REQUIRE(stepper->advance(state, s * kStep).ok());
-  CHECK(state.velocities.norm() < 1e-9);
-  CHECK((state.positions - expected).norm() < 1e-9);
-}
-
 TEST_CASE("projective: velocities are displacements over the step", "[dynamics]") {
   Cloth cloth = soft_sheet(DampingDirection::along_spring);
   const Positions begin = cloth.state.positions;
