@@ -47,6 +47,8 @@ ContactMemory::ContactMemory(ClothModel& model, ContactForces wanted) : model_(m
   for (std::vector<Touch>* touches : {&touches_, &foreseen_, &settled_})
     touches->reserve(n_vertices);
   plans_.reserve(n_vertices);
+  positions_begin_.resize(3, model.n_vertices());
+  velocities_begin_.resize(3, model.n_vertices());
 }
 
 std::span<const char> ContactMemory::exempt() {
@@ -149,7 +151,8 @@ void ContactMemory::plan(const State& begin, double h, const Eigen::VectorXd& re
   plans_.clear();
   if (!has_forces()) return;
   is_planned_ = true;
-  if (velocities_begin_.cols() == 0) velocities_begin_ = begin.velocities;
+  if (!has_planned_) velocities_begin_ = begin.velocities;
+  has_planned_ = true;
   exempt();
   const auto has_left_here = [&](const Touch& touch) { return has_left(touch, begin, h); };
   touches_.erase(std::remove_if(touches_.begin(), touches_.end(), has_left_here), touches_.end());
@@ -257,7 +260,7 @@ void ContactMemory::add_forces(std::span<const Touch> touches, const Positions& 
   for (const Touch& touch : touches) {
     const VertexId v = touch.vertex;
     auto force = forces_.col(v);
-    const bool is_new = force.isZero(0) && velocities_begin_.cols() > 0;
+    const bool is_new = force.isZero(0) && has_planned_;
     force += model_.masses[v] / h * (velocities.col(v) - solved_velocities_.col(v));
     if (is_new && !touch.in_corner) {
       const Vec3 solid_velocity = model_.contact->solid_velocity(touch, positions_begin_.col(v));

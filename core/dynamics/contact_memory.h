@@ -104,6 +104,7 @@ class ContactMemory {
   std::vector<char> is_exempt_;  // one for each vertex; empty without contact
   bool is_touched_ = false;
   bool is_planned_ = false;
+  bool has_planned_ = false;     // any substep
   Positions positions_begin_;    // start of a planned substep
   Positions velocities_begin_;   // there [m/s]
   Positions solved_velocities_;  // velocities before contact [m/s]

@@ -200,8 +200,7 @@ TEST_CASE("steppers: nothing is allocated per step after the first", "[dynamics]
   for (const MethodOptions& options : accurate_methods(1.0 / 240)) methods.push_back(options);
   for (MethodOptions options : methods) {
     CAPTURE(options.stepper->name);
-    if (options.stepper == &steppers::kProjective) options.solver = SolverKind::eigen;
-    if (options.stepper == &steppers::kNewton) {
+    if (options.stepper == &steppers::kProjective || options.stepper == &steppers::kNewton) {
       if (!is_available(SolverKind::cholmod)) continue;  // Eigen's factorisation allocates
       options.solver = SolverKind::cholmod;
     }
