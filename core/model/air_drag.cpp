@@ -74,7 +74,8 @@ void AirDrag::add_forces(const PositionsView& positions, const PositionsView& ve
   forces += drag_;
 }
 
-// With a = h D/m and dv = h (F + G)/m, F = f - D dv is (I + a) F = f - a G.
+// Solves F = f - D dv for the drag F at the end of the step: dv = h (F + G)/m makes it
+// (I + a) F = f - a G, a = h D/m.
 void AirDrag::set_damped_forces(const PositionsView& positions, const PositionsView& velocities,
                                 const Eigen::VectorXd& masses,
                                 std::span<const HangingVertex> hanging, double h,

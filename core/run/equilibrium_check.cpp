@@ -200,9 +200,9 @@ bool EquilibriumCheck::solve_by_factor() {
   return solve();
 }
 
-// With p the force of the last round, r the resistance and w the target, the solid gave
-// p - r (dx - w). What of it lies in Coulomb's cone it may go on with. A vertex that is new on it
-// is held first, to see with what force. Friction that would drive a vertex holds it.
+// Takes what the solid gave in this round, p - r (dx - w): p the force of the round before, r the
+// resistance, w the target. What of it lies in Coulomb's cone it may go on with. A vertex that is
+// new on it is held first, to see with what force. Friction that would drive a vertex holds it.
 void EquilibriumCheck::take_force(Contact& contact) const {
   using Hold = Contact::Hold;
   const Vec3& normal = contact.normal;

@@ -99,7 +99,7 @@ SolveReport VelocitySolve::solve_in_its_place(const SystemMatrix& matrix, const 
   return report;
 }
 
-// Where the factor fails too, what the iterative solver came to is the best there is.
+// Keeps what the iterative solver came to where the factor fails too.
 SolveReport VelocitySolve::solve(const SystemMatrix& matrix, const Positions& rhs,
                                  const State& state, PartObserver* observer) {
   if (n_in_its_place_ > 0) {

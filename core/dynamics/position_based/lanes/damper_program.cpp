@@ -6,8 +6,8 @@
 namespace pleat {
 namespace {
 
-// With u = v_a - v_b, P what of it counts, u itself or its part along d = x_a - x_b, and
-// w = w_a + w_b, backward Euler for the damper alone is
+// Impulse p of one damper, by backward Euler for it alone. It acts on P u, which is u = v_a - v_b
+// or its part along d = x_a - x_b; w is w_a + w_b:
 //   p = -h c P u',   u' = u + w p,   so   p = -h c/(1 + h c w) P u.
 // P u' = P u/(1 + h c w): no damper turns motion round, and kinetic energy falls by
 // |P u|^2/(2 w) (1 - 1/(1 + h c w)^2). All of it times h here, velocities and impulse.

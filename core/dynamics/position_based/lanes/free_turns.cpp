@@ -152,7 +152,8 @@ Vec3 FreeTurns::turn_against(const Sums& sums) const {
   return turn;
 }
 
-// Where nothing is held the moves of a solve have no momentum, so that their torque is the same
+// Takes the torque about a held point, else about any: the moves of a solve have no momentum where
+// nothing is held, so that their torque is the same
 // about every point, and a turn about the centre of mass adds none.
 void FreeTurns::keep(const LaneView& v, const Vec3& origin) const {
   Vec3 centre = is_held_ ? Vec3(point_ - origin) : Vec3(Vec3::Zero());
