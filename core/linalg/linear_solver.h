@@ -26,6 +26,8 @@ class LinearSolver {
   /// Sets the places of the vertices to which the unknowns belong, three each [m]: some solvers are
   /// faster for it. Of effect from the next factorisation on; sizes that differ count as not known.
   virtual void set_places(const VectorView& /*places*/) {}
+  /// Sets the relative residual in (0, 1) at which an iterative solver stops from now on.
+  virtual void set_tolerance(double /*tolerance*/) {}
 
   /// rhs       n x m right-hand sides
   /// solution  n x m; an iterative solver starts from what it holds, if that is better than zero

@@ -8,15 +8,10 @@
 namespace pleat {
 namespace {
 
-/// Relative residual that solves beside solids leave at most. The right-hand side holds all forces
-/// of threads: a thousandth of it may be much of a vertex's weight, by which solids hold and let
-/// go.
+/// Relative residual that is left at most while solids hold vertices. The right-hand side holds all
+/// forces of threads: a thousandth of it may be much of a vertex's weight, by which solids hold and
+/// let go.
 constexpr double kHeldTolerance = 1e-5;
-
-MethodOptions solver_options(const ClothModel& model, MethodOptions options) {
-  if (model.contact) options.tolerance = std::min(options.tolerance, kHeldTolerance);
-  return options;
-}
 
 }  // namespace
 
@@ -27,8 +22,7 @@ StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options
 
 StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options, int substeps)
     : Stepper(model, options, substeps, ContactForces::remembered),
-      solve_(model, options.solver,
-             make_solver(solver_options(model, options), kMaxSolverIterations)),
+      solve_(model, options.solver, make_solver(options, kMaxSolverIterations)),
       forces_(3, model.n_vertices()) {
   if (model_.contact) hold_.emplace(model_);
 }
@@ -89,6 +83,8 @@ SolveReport StepperImplicit::substep(State& state, double time_end, double h) {
     hold_->set_resistances(*matrix_);
     hold_->choose(contact_memory_, state, h, &*matrix_);
     hold_->add(state.velocities, h, *matrix_, forces_);
+    const double asked = options().tolerance;
+    solve_.set_tolerance(hold_->held().empty() ? asked : std::min(asked, kHeldTolerance));
   }
   SolveReport report = solve(state, time_end, h);
   if (report.ends_run()) return report;

@@ -24,6 +24,8 @@ class VelocitySolve {
   void analyze(const SystemMatrix& matrix);
   /// Call it when pins have changed in number or vertex.
   void choose_pins(SystemMatrix& matrix);
+  /// Sets the relative residual at which an iterative solver stops.
+  void set_tolerance(double tolerance) { solver_->set_tolerance(tolerance); }
 
   /// Finds by how much velocities change in h [s], to `time_end`. An iterative solver starts from
   /// what the last changes lead to, and what it leaves has no momentum. Where it gives up, a factor

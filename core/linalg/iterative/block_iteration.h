@@ -10,6 +10,9 @@ namespace pleat {
 /// A solver that comes nearer to the solution step by step, one right-hand side after the other, on
 /// the 3 x 3 blocks of a matrix.
 class BlockIteration : public LinearSolver {
+ public:
+  void set_tolerance(double tolerance) final { options_.tolerance = tolerance; }
+
  protected:
   explicit BlockIteration(const SolverOptions& options) : options_(options) {}
 

@@ -192,7 +192,7 @@ TEST_CASE("step solve: of two springs a sweep leaves half of the error", "[dynam
 }
 
 TEST_CASE("step solve: smoothers are the iterations of dense algebra", "[dynamics]") {
-  constexpr double kRounding = 2e-4;  // rounding of lengths in single precision, against the error
+  constexpr double kMargin = 2e-4;  // rounding of lengths in single precision, against the error
   const int sweeps = GENERATE(1, 3, 10);
   const FallingChain falling(9, 2e5);
   CAPTURE(sweeps);
@@ -204,15 +204,13 @@ TEST_CASE("step solve: smoothers are the iterations of dense algebra", "[dynamic
       return solve.relative_error();
     };
     CHECK(error(Smoother::gauss_seidel, 0) ==
-          Approx(algebra.relative_residual_of_sor(1, sweeps)).epsilon(1e-2).margin(kRounding));
+          Approx(algebra.relative_residual_of_sor(1, sweeps)).epsilon(1e-2).margin(kMargin));
     for (const double omega : {0.7, 1.5})
-      CHECK(
-          error(Smoother::sor, omega) ==
-          Approx(algebra.relative_residual_of_sor(omega, sweeps)).epsilon(1e-2).margin(kRounding));
+      CHECK(error(Smoother::sor, omega) ==
+            Approx(algebra.relative_residual_of_sor(omega, sweeps)).epsilon(1e-2).margin(kMargin));
     if (constraints == Constraints::rigid)
-      CHECK(
-          error(Smoother::jacobi, 0.9) ==
-          Approx(algebra.relative_residual_of_jacobi(0.9, sweeps)).epsilon(1e-2).margin(kRounding));
+      CHECK(error(Smoother::jacobi, 0.9) ==
+            Approx(algebra.relative_residual_of_jacobi(0.9, sweeps)).epsilon(1e-2).margin(kMargin));
   }
 }
 
