@@ -388,7 +388,7 @@ TEST_CASE("attachments: what is too far away comes back along its way, and nothi
                       {begins[0].data(), begins[1].data(), begins[2].data()},
                       inverse_masses.data()};
   const AttachmentProgram program({{{2, 0}, 0.5}, {{2, 1}, 0.6}, {{3, 0}, 0.5}, {{3, 1}, 0.5}},
-                                  slots);
+                                  slots, 0);
   CHECK(program.sweep(view) == 1);
   CHECK(begins[0][2] + moves[0][2] == Approx(0.5).epsilon(1e-5));
   CHECK(moves[0][3] == 0);

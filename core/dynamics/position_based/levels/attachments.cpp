@@ -163,13 +163,14 @@ std::vector<PlaceLength> lengths_between_pins(const std::vector<PlaceLength>& at
 }
 
 AttachmentProgram::AttachmentProgram(const std::vector<PlaceLength>& attachments,
-                                     const std::vector<int>& slots) {
+                                     const std::vector<int>& slots, double slack) {
   const auto slot_of = [&slots](int vertex) { return slots[static_cast<std::size_t>(vertex)]; };
   // By group of four and by how many of the same vertex are nearer: those come first.
   std::map<std::pair<int, int>, Operation> operations;
   int rank = 0;
   for (std::size_t i = 0; i < attachments.size(); ++i) {
-    const auto& [places, length] = attachments[i];
+    const auto& [places, strain_free] = attachments[i];
+    const double length = strain_free + slack;
     rank = i > 0 && attachments[i - 1].places[0] == places[0] ? rank + 1 : 0;
     const int slot = slot_of(places[0]);
     const int lane = slot % Float4::kLanes;
@@ -188,7 +189,7 @@ AttachmentProgram::AttachmentProgram(const std::vector<PlaceLength>& attachments
     operations_.push_back(operation);
   }
   for (const auto& [places, length] : lengths_between_pins(attachments))
-    between_pins_.push_back({slot_of(places[0]), slot_of(places[1]), length});
+    between_pins_.push_back({slot_of(places[0]), slot_of(places[1]), length + 2 * slack});
 }
 
 float AttachmentProgram::stretch_of_pins(const LaneView& view) const {

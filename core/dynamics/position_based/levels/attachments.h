@@ -28,7 +28,10 @@ class AttachmentProgram {
  public:
   AttachmentProgram() = default;
   /// slots  of each vertex
-  AttachmentProgram(const std::vector<PlaceLength>& attachments, const std::vector<int>& slots);
+  /// slack  by which each may be exceeded [m]: what weight alone moves in a substep, without which
+  ///        attachments pull at cloth at rest, and it trembles
+  AttachmentProgram(const std::vector<PlaceLength>& attachments, const std::vector<int>& slots,
+                    double slack);
 
   /// Moves vertices that are too far from a pin back to where they may be, the nearest pin first.
   /// Where pins themselves are further apart than attachments allow, all lengths grow with them.

@@ -143,8 +143,10 @@ class CycleProjections final : public Projections {
     } else {
       levels_ = {hierarchy_, slots_, of_vertices, options_.level_lengths};
     }
-    if (options_.attachments == Attachments::long_range)
-      attachments_ = {long_range_attachments(model, hierarchy_), slots_};
+    if (options_.attachments == Attachments::none) return;
+    const double h = options_.step / options_.substeps;
+    attachments_ = {long_range_attachments(model, hierarchy_), slots_,
+                    model.gravity.norm() * h * h};
   }
 
   void refresh_rest_lengths(const ClothModel& model) override {
