@@ -69,6 +69,15 @@ const char* const kHung = R"({
                       "origin_m": [0, 1, 0], "warp_direction": [0, -1, 0]}},
   "fabric": {"name": "linen"}, "pins": [{"part": "upper_edge"}]})";
 
+/// A limp curtain in the plane in which wind of 1.4 m/s and weight balance.
+const char* const kInWind = R"({
+  "cloth": {"sheet": {"width_m": 0.5, "height_m": 0.5, "columns": 10, "rows": 10,
+                      "origin_m": [0, 1, 0],
+                      "warp_direction": [0, -0.6891186054177533, 0.724648568388216]}},
+  "fabric": {"name": "fine cotton"}, "model": {"bending": "none"},
+  "pins": [{"part": "upper_edge"}],
+  "world": {"air": {"wind": {"velocity_m_per_s": [0, 0, 1.4]}}}})";
+
 /// A sheet of 20 cm that falls flat.
 const char* const kFalling = R"({
   "cloth": {"sheet": {"width_m": 0.2, "height_m": 0.2, "columns": 4, "rows": 4,
@@ -155,6 +164,14 @@ TEST_CASE("rest_watch: cloth that hangs is balanced", "[run]") {
   CAPTURE(stepper);
   const WatchedRun run(scene_of(kHung, stepper, 2));
   CHECK(run.share() < 0.05);
+  CHECK_FALSE(run.is_told());
+}
+
+TEST_CASE("rest_watch: a limp curtain that wind holds up comes to rest", "[run]") {
+  const char* stepper = GENERATE("projective", "xpbd", "multigrid");
+  CAPTURE(stepper);
+  const WatchedRun run(scene_of(kInWind, stepper, 5));
+  CHECK(run.simulation.state().velocities.colwise().norm().maxCoeff() < 1e-4);
   CHECK_FALSE(run.is_told());
 }
 

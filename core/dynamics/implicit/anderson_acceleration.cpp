@@ -21,8 +21,9 @@ AndersonAcceleration::AndersonAcceleration(Eigen::Index n_vertices)
       change_(n_vertices, 6),
       directions_(kWindow + 1, {step_, image_, 0}) {}
 
-void AndersonAcceleration::start(const LoadedRows& point) {
+void AndersonAcceleration::start(const LoadedRows& point, double rounding) {
   point_ = point;
+  rounding_ = rounding;
   n_directions_ = 0;
   has_round_ = false;
 }
@@ -52,6 +53,10 @@ const LoadedRows* AndersonAcceleration::propose(const VertexRows& image, const V
   places(image_) = image;
   loads(image_) = load;
   step_ = image_ - point_;
+  if (loads(step_).norm() <= rounding_) {
+    start(image_, rounding_);
+    return nullptr;
+  }
   if (has_round_) {
     fresh.step = step_ - fresh.step;
     fresh.image = image_ - fresh.image;

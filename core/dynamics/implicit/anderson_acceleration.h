@@ -35,7 +35,9 @@ class AndersonAcceleration {
   explicit AndersonAcceleration(Eigen::Index n_vertices);
 
   /// Forgets all rounds. The next one starts at this point.
-  void start(const LoadedRows& point);
+  ///
+  /// rounding  norm of what rounding makes of loads [N]: steps of less foretell nothing
+  void start(const LoadedRows& point, double rounding = 0);
   /// Proposes what to add to the image of the round that began at the present point, to be accepted
   /// or refused; null, and the image is the next point, while there is nothing to foretell from.
   /// Valid until the next call.
@@ -64,6 +66,7 @@ class AndersonAcceleration {
   std::vector<Direction> directions_;  // the newest first; the last is room for the next
   std::size_t n_directions_ = 0;
   bool has_round_ = false;
+  double rounding_ = 0;
   int n_refused_ = 0;
 };
 

@@ -18,6 +18,9 @@ constexpr int kNotPinned = -1;
 /// the remembered force is what it should be, and the more rounds until one that may slip has.
 constexpr double kHeldShare = 0.1;
 
+/// Rounding errors of a sum of pulls, in shares of the largest.
+constexpr double kLoadRounding = 100 * std::numeric_limits<double>::epsilon();
+
 bool damps_along_spring(const ClothModel& model) {
   return model.damping_direction == DampingDirection::along_spring;
 }
@@ -192,6 +195,14 @@ bool StepperProjective::free_pulled(double h) {
   return !freed.empty();
 }
 
+/// Norm of what rounding makes of the matrix times positions_ [N].
+double StepperProjective::rounding_of_loads() const {
+  double sum = 0;
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    sum += diagonal_[i] * diagonal_[i] * positions_.col(i).squaredNorm();
+  return kLoadRounding * std::sqrt(sum);
+}
+
 void StepperProjective::start_acceleration(double time_end, double h) {
   const auto damped = [](const Spring&, const Target& target) { return target.damped; };
   add_up(time_end, h, damped, steady_side_);
@@ -199,7 +210,7 @@ void StepperProjective::start_acceleration(double time_end, double h) {
   for (const HangingVertex& vertex : model_.hanging) start_.row(vertex.vertex).setZero();
   const auto A = matrix_.selfadjointView<Eigen::Lower>();
   for (int c = 0; c < 3; ++c) loads(start_).col(c).noalias() = A * places(start_).col(c);
-  acceleration_->start(start_);
+  acceleration_->start(start_, rounding_of_loads());
 }
 
 // The rounds lower x.Ax/2 - x.b_0 - sum k L l(x): b(x) = b_0 + sum S^T p is where the last term
@@ -265,6 +276,44 @@ void StepperProjective::place_first_guess(double time_end, double h) {
   }
 }
 
+/// Slope of the energy that the rounds lower, at positions_ along this way of free vertices [J].
+double StepperProjective::slope(const Positions& way, double time_end, double h) {
+  set_right_side(time_end, h);
+  solution_ = positions_.transpose();
+  const auto A = matrix_.selfadjointView<Eigen::Lower>();
+  double sum = 0;
+  for (int c = 0; c < 3; ++c) {
+    column_.noalias() = A * solution_.col(c);
+    column_ -= right_side_.col(c);
+    for (int i = 0; i < model_.n_vertices(); ++i) sum += way(c, i) * column_[i];
+  }
+  return sum;
+}
+
+// Where every force but the springs' takes vertices, springs at pins have turned, and few rounds do
+// not turn them back: what they come to is at rest below the equilibrium. Where the cloth coasts,
+// equilibrium stays as it is, but few rounds hold back what falls. So it starts between the two,
+// where the energy is least if its slope is linear there: at rest it coasts, in free fall it falls.
+void StepperProjective::ease_first_guess(double time_end, double h) {
+  if (model_.pins.empty() && !(hold_ && !hold_->held().empty())) return;
+  fall_ = positions_;
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    if (is_free_[i] != 0 && !(hold_ && is_held_[i] != 0))
+      positions_.col(i) = positions_begin_.col(i) + h * velocities_begin_.col(i);
+  place_between_parents(model_.hanging, positions_);
+  fall_ -= positions_;
+  for (const HangingVertex& vertex : model_.hanging) fall_.col(vertex.vertex).setZero();
+  const double coasting = slope(fall_, time_end, h);
+  positions_ += fall_;
+  place_between_parents(model_.hanging, positions_);
+  const double fallen = slope(fall_, time_end, h);
+  double share = fallen <= 0 ? 1 : coasting / (coasting - fallen);
+  if (coasting >= 0) share = 0;
+  fall_ *= share - 1;
+  positions_ += fall_;
+  place_between_parents(model_.hanging, positions_);
+}
+
 void StepperProjective::add_air_forces(const State& begin, double h) {
   model_.air->set_damped_forces(begin.positions, begin.velocities, model_.masses, model_.hanging, h,
                                 other_forces_, air_forces_);
@@ -296,6 +345,7 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
     }
     place_first_guess(time_end, h);
     set_targets(h);
+    ease_first_guess(time_end, h);
     if (acceleration_) start_acceleration(time_end, h);
   }
   SolveReport report;
@@ -330,10 +380,8 @@ void StepperProjective::store(State&, SolveReport& report) {
   set_right_side(time_end_, options().step / substeps());
   const auto A = matrix_.selfadjointView<Eigen::Lower>();
   solution_ = first_change_.transpose();
-  constexpr double kRounding = 100 * std::numeric_limits<double>::epsilon();
   double first = 0;
   double last = 0;
-  double rounding = 0;
   const auto clear_hanging = [this] {
     for (const HangingVertex& vertex : model_.hanging) column_[vertex.vertex] = 0;
   };
@@ -342,13 +390,13 @@ void StepperProjective::store(State&, SolveReport& report) {
     clear_hanging();
     first += column_.squaredNorm();
     solution_.col(c) = positions_.row(c).transpose();
-    rounding += kRounding * kRounding * solution_.col(c).cwiseProduct(diagonal_).squaredNorm();
     column_ = right_side_.col(c);
     column_.noalias() -= A * solution_.col(c);
     clear_hanging();
     last += column_.squaredNorm();
   }
-  report.relative_residual = first > 0 ? std::sqrt(last / std::max(first, rounding)) : 0;
+  const double unsolved = std::max(std::sqrt(first), rounding_of_loads());
+  report.relative_residual = first > 0 ? std::sqrt(last) / unsolved : 0;
 }
 
 }  // namespace pleat

@@ -55,6 +55,8 @@ class StepperProjective final : public Stepper {
   void add_air_forces(const State& begin, double h);
   void remember_motion(const State& end, double h);
   void place_first_guess(double time_end, double h);
+  void ease_first_guess(double time_end, double h);
+  double slope(const Positions& way, double time_end, double h);
   void set_targets(double h);
   /// The right-hand side of the global solve into `side`: M/h^2 y, what pull_of gives for each
   /// spring, and pinned neighbours.
@@ -63,6 +65,7 @@ class StepperProjective final : public Stepper {
   void set_right_side(double time_end, double h);
   bool free_pulled(double h);
   double hold_excess(VertexId vertex) const;
+  double rounding_of_loads() const;
   void start_acceleration(double time_end, double h);
   void accelerate(double h);
   /// Change of what the rounds lower [J], from positions_ to proposed_, which are `change` apart.
@@ -85,8 +88,8 @@ class StepperProjective final : public Stepper {
   Positions other_forces_;  // all but drag, in the last substep; models with air only [N]
   Positions predicted_;     // x + h v + h^2 M^-1 f_external; 0 where vertices hang
   Positions positions_;
-  Positions
-      first_change_;  // way from where neither springs nor solids act to the first round's end
+  Positions first_change_;  // way from where neither springs nor solids act to the first round
+  Positions fall_;          // way from where cloth coasts to where forces alone lead
   VertexRows right_side_;
   VertexRows solution_;
   Eigen::VectorXd column_;

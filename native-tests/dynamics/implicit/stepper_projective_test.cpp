@@ -166,6 +166,33 @@ TEST_CASE("projective: many rounds reach the backward Euler step that Newton fin
   CHECK((cloth.state.positions - expected).norm() < 1e-9 * (expected - begin).norm());
 }
 
+TEST_CASE("projective: a weight on two springs stays where they balance, whatever the rounds",
+          "[dynamics]") {
+  const int rounds = GENERATE(1, 2, 10);
+  const auto acceleration = GENERATE(Acceleration::none, Acceleration::anderson);
+  CAPTURE(rounds, acceleration);
+  ClothModel model = chain_model({2});
+  const double weight = model.gravity.norm() * model.masses[1];
+  const Spring& spring = model.springs[0];
+  const double half_span = 0.9 * spring.rest_length;
+  double above = 0, below = spring.rest_length;
+  for (int halving = 0; halving < 60; ++halving) {
+    const double sag = (above + below) / 2;
+    const double length = std::hypot(half_span, sag);
+    const double lift = 2 * spring.stiffness * (length - spring.rest_length) * sag / length;
+    (lift < weight ? above : below) = sag;
+  }
+  State state{Positions::Zero(3, 3), Positions::Zero(3, 3)};
+  state.positions.row(0) << 0, half_span, 2 * half_span;
+  state.positions(1, 1) = -above;
+  model.pins.push_back({VertexId(2), state.positions.col(2), {}});
+  const Positions start = state.positions;
+  const auto stepper = make_stepper(model, projective(rounds, acceleration));
+  for (int s = 0; s < 500; ++s) REQUIRE(stepper->advance(state, s * kStep).ok());
+  CHECK((state.positions - start).cwiseAbs().maxCoeff() < 1e-10);
+  CHECK(state.velocities.cwiseAbs().maxCoeff() < 1e-9);
+}
+
 TEST_CASE("projective: more rounds come nearer to the converged step", "[dynamics]") {
   const auto after = [](int rounds) {
     Cloth cloth = soft_sheet(DampingDirection::along_spring);
