@@ -6,8 +6,8 @@ import heavyBeadText from '../../../../assets/hard_cases/heavy_bead.json?raw';
 import hundredfoldText from '../../../../assets/hard_cases/hundredfold_stiffness.json?raw';
 import longStepText from '../../../../assets/hard_cases/long_step_stiff_cloth.json?raw';
 import needleCellsText from '../../../../assets/hard_cases/needle_cells.json?raw';
-import onePinnedCornerText from '../../../../assets/hard_cases/one_pinned_corner.json?raw';
 import restOnABallText from '../../../../assets/hard_cases/rest_on_a_ball.json?raw';
+import scaleOfADrapeText from '../../../../assets/hard_cases/scale_of_a_drape.json?raw';
 import tumblingText from '../../../../assets/hard_cases/tumbling.json?raw';
 import type { RunWarning } from '../../shared/bindings/run-warning';
 
@@ -109,12 +109,12 @@ export const CASES: readonly FailureCase[] = [
     endS: 2,
   },
   {
-    id: 'one_pinned_corner',
+    id: 'scale_of_a_drape',
     title: 'Two rounds',
     lesson:
-      'Projective dynamics solves its equations in rounds. After two of them much is left unsolved: the cloth lags behind its own weight, and looks well while it does.',
+      'Projective dynamics solves its equations in rounds. After two of them much is left unsolved: what meets a ball lags behind its own weight, and looks well while it does.',
     remedy: 'Ten rounds with the same factor.',
-    sceneText: onePinnedCornerText,
+    sceneText: scaleOfADrapeText,
     naive: {
       words: 'Projective, 2 rounds',
       method: { stepper: 'projective', substeps: 1, iterations: 2 },
