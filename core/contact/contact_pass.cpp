@@ -27,6 +27,11 @@ double sagitta(double radius, double face_radius) {
   return std::sqrt(radius * radius + face_radius * face_radius) - radius;
 }
 
+/// Distance from a ball to another solid [m]; negative where they overlap.
+double distance(const Sphere& ball, const SolidShape& other) {
+  return gap(swept(other, Clearance{}, Vec3::Zero()), ball.centre).distance - ball.radius;
+}
+
 DistanceBudget::Hull hull(const RoundedCone& cone, const Clearance& clearance) {
   const Vec3 side_a = cone.half_width_a * cone.across;
   const Vec3 side_b = cone.half_width_b * cone.across;
@@ -83,6 +88,30 @@ ContactPass::ContactPass(std::vector<Collider> colliders, const ContactOptions& 
   set_options(options);
 }
 
+/// Finds what is apart at the start: solids that overlap there are one body, with no gap to keep.
+void ContactPass::find_gaps() {
+  gaps_.clear();
+  if (largest_face_radius_ == 0) return;
+  for (std::size_t k = 0; k < colliders_.size(); ++k) {
+    const auto* ball = std::get_if<Sphere>(&colliders_[k].shape);
+    for (std::size_t other = 0; ball && other < colliders_.size(); ++other)
+      if (other != k && distance(*ball, colliders_[other].shape) > 2 * options_.half_thickness)
+        gaps_.push_back({k, other});
+  }
+}
+
+double ContactPass::most_sagitta(std::size_t ball, std::span<const Pose> poses) const {
+  double most = std::numeric_limits<double>::infinity();
+  for (const auto& [one, other] : gaps_) {
+    if (one != ball) continue;
+    const Sphere placed_ball = pleat::placed(std::get<Sphere>(colliders_[one].shape), poses[one]);
+    const double apart =
+        distance(placed_ball, pleat::placed(colliders_[other].shape, poses[other]));
+    most = std::min(most, std::max(0.0, apart / 2 - options_.half_thickness) / 2);
+  }
+  return most;
+}
+
 void ContactPass::set_options(const ContactOptions& options) {
   const auto is_size = [](double size) { return size >= 0 && std::isfinite(size); };
   const Eigen::VectorXd& radii = options.face_radii;
@@ -92,17 +121,23 @@ void ContactPass::set_options(const ContactOptions& options) {
   options_ = options;
   largest_face_radius_ = radii.size() > 0 ? radii.maxCoeff() : 0;
   is_graded_ = radii.size() > 0 && radii.minCoeff() < largest_face_radius_;
+  find_gaps();
   make_budget();
 }
 
-Clearance ContactPass::clearance(const std::array<double, 2>& radii, double face_radius) const {
-  return {options_.half_thickness + sagitta(radii[0], face_radius),
-          options_.half_thickness + sagitta(radii[1], face_radius)};
+Clearance ContactPass::clearance(const Roundness& solid, double face_radius) const {
+  const auto off = [&](double radius) {
+    return options_.half_thickness + std::min(sagitta(radius, face_radius), solid.most_sagitta);
+  };
+  return {off(solid.radii[0]), off(solid.radii[1])};
 }
 
 Clearance ContactPass::clearance(const Collider& collider, VertexId vertex) const {
-  return clearance(end_radii(collider.shape),
-                   is_graded_ ? options_.face_radii[vertex] : largest_face_radius_);
+  return clearance(Roundness{end_radii(collider.shape)}, face_radius(vertex));
+}
+
+double ContactPass::face_radius(VertexId vertex) const {
+  return is_graded_ ? options_.face_radii[vertex] : largest_face_radius_;
 }
 
 /// The shape of a solid as this vertex is held off it.
@@ -110,12 +145,10 @@ template <class Shape, class Action>
 auto ContactPass::with_held(const Solid& solid, const Shape& shape, VertexId vertex,
                             const Action& action) const {
   if (!is_graded_) return action(shape);
-  const double face_radius = options_.face_radii[vertex];
-  const auto less = [&](double radius) {
-    return sagitta(radius, largest_face_radius_) - sagitta(radius, face_radius);
-  };
+  const Clearance largest = clearance(solid.roundness, largest_face_radius_);
+  const Clearance its = clearance(solid.roundness, options_.face_radii[vertex]);
   Shape own = shape;
-  shrink(own, {less(solid.radii[0]), less(solid.radii[1])});
+  shrink(own, {largest.at_a - its.at_a, largest.at_b - its.at_b});
   return action(own);
 }
 
@@ -129,7 +162,7 @@ void ContactPass::make_budget() {
   std::vector<DistanceBudget::Hull> hulls;
   for (std::size_t k = first_cone_; k < colliders_.size(); ++k) {
     const auto& cone = std::get<RoundedCone>(colliders_[k].shape);
-    hulls.push_back(hull(cone, clearance(end_radii(cone), largest_face_radius_)));
+    hulls.push_back(hull(cone, clearance(Roundness{end_radii(cone)}, largest_face_radius_)));
   }
   budget_ = DistanceBudget(std::move(hulls));
 }
@@ -137,7 +170,7 @@ void ContactPass::make_budget() {
 void ContactPass::place(const Collider& collider, const Pose& begin, const Pose& end,
                         Solid& solid) const {
   solid.turns = begin.rotation != end.rotation;
-  solid.radii = end_radii(collider.shape);
+  solid.roundness.radii = end_radii(collider.shape);
   solid.friction = collider.friction;
   Vec3 shift = Vec3::Zero();
   if (solid.turns) {
@@ -148,7 +181,7 @@ void ContactPass::place(const Collider& collider, const Pose& begin, const Pose&
     solid.velocity = shift / substep_;
   }
   solid.swept = swept(pleat::placed(collider.shape, end),
-                      clearance(solid.radii, largest_face_radius_), shift);
+                      clearance(solid.roundness, largest_face_radius_), shift);
 }
 
 void ContactPass::begin_substep(double time_begin, double time_end) {
@@ -157,6 +190,9 @@ void ContactPass::begin_substep(double time_begin, double time_end) {
   for (std::size_t k = 0; k < colliders_.size(); ++k) {
     poses_begin_[k] = colliders_[k].motion.pose(time_begin);
     poses_end_[k] = colliders_[k].motion.pose(time_end);
+  }
+  for (std::size_t k = 0; k < colliders_.size(); ++k) {
+    solids_[k].roundness.most_sagitta = most_sagitta(k, poses_end_);
     place(colliders_[k], poses_begin_[k], poses_end_[k], solids_[k]);
   }
   if (first_cone_ < colliders_.size())
@@ -224,11 +260,18 @@ ContactPass::Meeting ContactPass::earliest_meeting(VertexId vertex, const Vec3& 
   return earliest;
 }
 
-/// True on and outside of the solid itself, without clearance.
-bool ContactPass::is_outside(const Solid& solid, const Vec3& place) const {
+/// Height of a place above the solid itself, without clearance [m].
+double ContactPass::bare_height(const Solid& solid, const Vec3& place) const {
   SweptSolid bare = solid.swept;
-  shrink(bare, clearance(solid.radii, largest_face_radius_));
-  return gap(bare, place).distance >= 0;
+  shrink(bare, clearance(solid.roundness, largest_face_radius_));
+  return gap(bare, place).distance;
+}
+
+/// True where two rough solids leave less between them than the cloth is thick: they press as hard
+/// as it takes, so that nothing pulls it out.
+bool ContactPass::grips(const Solid& a, const Solid& b, const Vec3& place) const {
+  return a.friction > 0 && b.friction > 0 &&
+         bare_height(a, place) + bare_height(b, place) < 2 * options_.half_thickness;
 }
 
 // One solid acts at a time, the earliest first. With n its normal where the vertex meets it at the
@@ -240,7 +283,8 @@ bool ContactPass::is_outside(const Solid& solid, const Vec3& place) const {
 // solid. Should this lead into the solid that acted before, the vertex slides along the new one, in
 // the direction m = n_b - (n_b . n) n, until it is on the old one's tangent plane as well; then it
 // is clear of both. Where solids leave it no place with its clearance, the middle of the last two
-// places is as far inside of either's, and may yet be outside of the solids themselves.
+// places is as far inside of either's, and may yet be outside of the solids themselves. Rough ones
+// that grip it carry it along.
 std::optional<ContactPass::Touch> ContactPass::resolve(VertexId vertex, const Vec3& position_begin,
                                                        Vec3& position, Vec3& velocity,
                                                        const Touch* settled) {
@@ -255,7 +299,12 @@ std::optional<ContactPass::Touch> ContactPass::resolve(VertexId vertex, const Ve
     if (n_meetings == kMaxMeetings) {
       ++n_unresolved_;
       const Vec3 middle = (place_before + position) / 2;
-      if (is_outside(*before, middle) && is_outside(*meeting.solid, middle)) position = middle;
+      if (bare_height(*before, middle) < 0 || bare_height(*meeting.solid, middle) < 0) break;
+      position = middle;
+      if (!grips(*before, *meeting.solid, middle)) break;
+      touch.sticks = true;
+      velocity = (velocity_at(*before, middle) + velocity_at(*meeting.solid, middle)) / 2;
+      position += tangential(position_begin + substep_ * velocity - middle, touch.normal);
       break;
     }
     place_before = position;
@@ -360,7 +409,7 @@ void ContactPass::outlines(std::vector<Outline>& outlines) const {
       const Sphere around = ball_around(colliders_[k].shape);
       const Vec3 begin = poses_begin_[k] * around.centre;
       const Vec3 end = poses_end_[k] * around.centre;
-      const Clearance held = clearance(solid.radii, largest_face_radius_);
+      const Clearance held = clearance(solid.roundness, largest_face_radius_);
       const double shift = (end - begin).norm();
       const double radius = (around.radius + std::max(held.at_a, held.at_b)) / (1 - turn) + shift;
       outline.shape =
@@ -369,7 +418,7 @@ void ContactPass::outlines(std::vector<Outline>& outlines) const {
       if (outline.cone) {
         outline.is_exact = rests && turn <= kLargestTurn;
         outline.longest_shift = budget_.move(k - first_cone_);
-        outline.radii = solid.radii;
+        outline.radii = solid.roundness.radii;
         outline.carry = solid.turns ? solid.carry : Pose{Mat3::Identity(), outline.cone->shift};
       }
     }
@@ -401,11 +450,15 @@ Gap ContactPass::gap_at_end(const Touch& touch, const Vec3& place) const {
 std::vector<ContactPass::Support> ContactPass::supports(const PositionsView& positions, double time,
                                                         double within) const {
   std::vector<Support> found;
+  std::vector<Pose> poses;
+  for (const Collider& collider : colliders_) poses.push_back(collider.motion.pose(time));
   for (std::size_t k = 0; k < colliders_.size(); ++k) {
     const Collider& collider = colliders_[k];
-    const SweptSolid bare = swept(placed(collider, time), Clearance{}, Vec3::Zero());
+    const Roundness roundness{end_radii(collider.shape), most_sagitta(k, poses)};
+    const SweptSolid bare =
+        swept(pleat::placed(collider.shape, poses[k]), Clearance{}, Vec3::Zero());
     for (Eigen::Index i = 0; i < positions.cols(); ++i) {
-      const Clearance held = clearance(collider, VertexId(i));
+      const Clearance held = clearance(roundness, face_radius(VertexId(i)));
       const Gap point = gap(bare, positions.col(i));
       const double height = point.distance - std::max(held.at_a, held.at_b);
       if (height <= within)

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <variant>
@@ -60,7 +61,8 @@ class ContactPass {
 
   /// Distance off the solid's surface at which the vertex is held [m]: half the thickness, and off
   /// a ball of radius R also the sagitta sqrt(R^2 + c^2) - R of a face of radius c; off a rounded
-  /// cone that of the balls at its ends, linearly between.
+  /// cone that of the balls at its ends, linearly between. In a substep the sagitta of a ball that
+  /// is apart from another solid leaves cloth half of the room between them.
   Clearance clearance(const Collider& collider, VertexId vertex) const;
 
   /// Places the solids at both ends of a substep [s]. Throws ContractError unless time_end >
@@ -173,10 +175,15 @@ class ContactPass {
   }
 
  private:
+  struct Roundness {
+    std::array<double, 2> radii{};  ///< end_radii [m]
+    /// The largest sagitta that leaves the gaps to other solids open [m].
+    double most_sagitta = std::numeric_limits<double>::infinity();
+  };
   /// A collider over the substep that was begun.
   struct Solid {
-    SweptSolid swept;               ///< grown by the largest clearance
-    std::array<double, 2> radii{};  ///< end_radii [m]
+    SweptSolid swept;  ///< grown by the largest clearance
+    Roundness roundness;
     double friction = 0;
     Vec3 velocity{0, 0, 0};  ///< mean over the substep [m/s], of one that does not turn
     bool turns = false;      ///< then its shift is zero, and all is seen from where it ends:
@@ -190,12 +197,16 @@ class ContactPass {
     void keep_earlier(const Solid& other, const std::optional<Impact>& met);
   };
 
-  Clearance clearance(const std::array<double, 2>& radii, double face_radius) const;
+  Clearance clearance(const Roundness& solid, double face_radius) const;
+  double face_radius(VertexId vertex) const;
+  void find_gaps();
+  double most_sagitta(std::size_t ball, std::span<const Pose> poses) const;
   template <class Shape, class Action>
   auto with_held(const Solid& solid, const Shape& shape, VertexId vertex,
                  const Action& action) const;
   Gap held_gap(const Solid& solid, VertexId vertex, const Vec3& place) const;
-  bool is_outside(const Solid& solid, const Vec3& place) const;
+  double bare_height(const Solid& solid, const Vec3& place) const;
+  bool grips(const Solid& a, const Solid& b, const Vec3& place) const;
   Vec3 velocity_at(const Solid& solid, const Vec3& place) const;
   static Vec3 relative_path(const Solid& solid, const Vec3& begin, const Vec3& end);
   void make_budget();
@@ -211,9 +222,11 @@ class ContactPass {
   ContactOptions options_;
   double largest_face_radius_ = 0;  // [m]
   bool is_graded_ = false;          // vertices differ in it
-  double substep_ = 0;              // [s]
-  std::vector<Solid> solids_;       // one per collider
-  std::vector<Pose> poses_begin_;   // one per collider
+  /// Index of a ball and of another solid that is apart from it at the start.
+  std::vector<std::array<std::size_t, 2>> gaps_;
+  double substep_ = 0;             // [s]
+  std::vector<Solid> solids_;      // one per collider
+  std::vector<Pose> poses_begin_;  // one per collider
   std::vector<Pose> poses_end_;
   DistanceBudget budget_;       // budget of the rounded cones
   std::vector<Touch> touches_;  // answers of the last call of resolve

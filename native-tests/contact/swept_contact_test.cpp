@@ -247,6 +247,54 @@ TEST_CASE("contact: far from the origin, rounding does not count as a contact", 
   CHECK(n_unresolved == 0);
 }
 
+// The jaws leave half of the thickness, and move along with what they hold.
+TEST_CASE("contact: rough jaws carry what they close on, and a smooth one lets it slide",
+          "[contact]") {
+  constexpr double kHalfThickness = 5e-4;
+  const double friction = GENERATE(0.0, 0.3);
+  CAPTURE(friction);
+  const Vec3 drive(0.2, 0, 0.1);
+  std::vector<Collider> jaws{floor_collider(0.3), floor_collider(friction)};
+  for (const int k : {0, 1}) {
+    const double side = 1 - 2 * k;
+    jaws[static_cast<std::size_t>(k)].shape =
+        Plane{{0, -side * kHalfThickness / 2, 0}, {0, side, 0}};
+    jaws[static_cast<std::size_t>(k)].motion = steady_motion(drive);
+  }
+  ContactPass pass(jaws, {kHalfThickness, {}});
+  Particle particle{Vec3(0, 1e-5, 0), drive};
+  constexpr int kSteps = 30;
+  for (int k = 0; k < kSteps; ++k) step(pass, Vec3(0, 0, -9.81), k / 60.0, 1 / 60.0, particle);
+  const Vec3 carried = kSteps / 60.0 * drive;
+  const double slip = (particle.position - carried).norm();
+  if (friction > 0)
+    CHECK(slip < 2e-5);
+  else
+    CHECK(slip > 0.1);
+}
+
+// Two balls with room for the cloth, whose clearances for coarse faces overlap.
+TEST_CASE("contact: what coarse faces ask of two balls leaves the gap between them open",
+          "[contact]") {
+  constexpr double kRadius = 0.1;
+  constexpr double kHalfThickness = 5e-4;
+  constexpr double kGap = 8e-3;
+  std::vector<Collider> balls;
+  for (const double side : {-1.0, 1.0})
+    balls.push_back(ball_collider({side * (kRadius + kGap / 2), 0, 0}, kRadius, 0));
+  const bool is_closed = GENERATE(false, true);  // overlapping balls are one body
+  if (is_closed) balls[1] = ball_collider({kRadius - kGap, 0, 0}, kRadius, 0);
+  ContactPass pass(balls, {kHalfThickness, Eigen::VectorXd::Constant(1, 0.05)});
+  const double alone = pass.clearance(balls[0], VertexId(0)).at_a;
+  REQUIRE(alone > kGap);
+  pass.begin_substep(0, 1);
+  Vec3 position(0, -0.2, 0);
+  Vec3 velocity(0, -0.4, 0);
+  const auto touch = pass.resolve(VertexId(0), {0, 0.2, 0}, position, velocity);
+  CHECK(touch.has_value() == is_closed);
+  if (!is_closed) CHECK(position == Vec3(0, -0.2, 0));
+}
+
 TEST_CASE("contact: a vertex crushed between two walls is counted", "[contact]") {
   Collider ceiling = floor_collider(0.3);
   ceiling.shape = Plane{{0, 1, 0}, {0, -1, 0}};
