@@ -29,6 +29,8 @@ constexpr double kFrictionAccuracy = 0.02;
 constexpr double kFirmness = 100;
 /// A solid that slides by faster than this rubs along its way; a slower one may hold [m/s].
 constexpr double kSlowSolid = 0.05;
+/// Solids whose normals have a lower cosine than this close on a vertex from both sides.
+constexpr double kOpposed = -0.9;
 /// Edges within so much of their limit may be held by it.
 constexpr double kNearLimit = 0.98;
 
@@ -149,9 +151,26 @@ void EquilibriumCheck::find_contacts(const State& state, double time) {
     if (near.height <= kTouchDistance)
       contact.hold = contact.may_stick ? Contact::Hold::whole : Contact::Hold::along_normal;
     contact.resistance = kFirmness / 3 * matrix_.diagonal_trace(near.vertex);
+    contact.depth = std::max(-near.height, 0.0);
     contacts_.push_back(contact);
   }
+  press_from_both_sides();
   work_ += kSolidCost * static_cast<double>(solids.size());
+}
+
+// Solids that leave a vertex no room press on it from both sides: each would have it out of itself.
+void EquilibriumCheck::press_from_both_sides() {
+  if (model_.contact->colliders().size() < 2) return;
+  std::vector<Contact*> known(static_cast<std::size_t>(model_.n_vertices()), nullptr);
+  for (Contact& contact : contacts_) {
+    Contact*& other = known[contact.vertex];
+    if (other && other->depth > 0 && contact.depth > 0 &&
+        other->normal.dot(contact.normal) < kOpposed) {
+      other->target += other->depth * other->normal;
+      contact.target += contact.depth * contact.normal;
+    }
+    other = &contact;
+  }
 }
 
 // Solved again for what is left until that is little of the weight: stiff threads make a relative

@@ -55,6 +55,7 @@ class EquilibriumCheck {
     Vec3 force = Vec3::Zero();  ///< contact force times h^2 [kg m]
     Hold hold = Hold::none;
     bool may_stick = false;
+    double depth = 0;       ///< depth below where the solid holds it [m]
     double resistance = 0;  ///< [kg]
   };
 
@@ -62,6 +63,7 @@ class EquilibriumCheck {
   void set_forces(const State& state, double time);
   void set_matrix(const State& state);
   void find_contacts(const State& state, double time);
+  void press_from_both_sides();
   void choose_free();
   double share_of_moves() const;
   void take_solver(SolverKind kind);

@@ -126,6 +126,23 @@ TEST_CASE("equilibrium_check: cloth at rest on a belt is balanced, under which i
   CHECK(share_of(sheet.model, sheet.state) < 1e-3);
 }
 
+// Walls that leave cloth half of its thickness press on it from both sides: rough ones hold it.
+TEST_CASE("equilibrium_check: jaws hold what they close on, smooth ones do not", "[run]") {
+  constexpr double kHalfThickness = 5e-4;
+  const double friction = GENERATE(0.0, 1.0);
+  CAPTURE(friction);
+  FlatSheet sheet;
+  std::vector<Collider> jaws;
+  for (const double side : {-1.0, 1.0}) {
+    Collider jaw = floor_collider(friction);
+    jaw.shape = Plane{{0, side * kHalfThickness / 2, 0}, {0, -side, 0}};
+    jaws.push_back(jaw);
+  }
+  sheet.model.gravity = Vec3(kGravity, 0, 0);
+  sheet.model.contact.emplace(jaws, ContactOptions{kHalfThickness, {}});
+  CHECK(share_of(sheet.model, sheet.state) == Approx(friction > 0 ? 0 : 1).margin(0.01));
+}
+
 TEST_CASE("equilibrium_check: a vertex just above the floor falls no further than onto it",
           "[run]") {
   FlatSheet sheet;
