@@ -21,6 +21,10 @@ constexpr double kRoomForMotion = 10;
 /// Cloth twice as long as it was made is beyond what any of its measurements say, whatever the
 /// load. Particles with springs of their own may be made for it.
 constexpr double kMostStretch = 1;
+/// Pinned cloth that swings pulls by so many times its weight and air, beside a stretch that fabric
+/// is not felt to have.
+constexpr double kRoomForSwing = 10;
+constexpr double kLeastSoftness = 0.002;
 /// The free end of a whip is so many times as fast as its handle.
 constexpr double kWhip = 4;
 constexpr double kLeastSpeed = 1;  // [m/s]
@@ -121,6 +125,35 @@ double stretch_between_pins(const Simulation& simulation) {
   return largest;
 }
 
+/// Cloth along whose threads springs lie, that hangs from pins alone: its load is known.
+bool has_known_load(const Simulation& simulation) {
+  const ClothModel& model = simulation.model();
+  return simulation.mesh() && !model.springs.empty() && !model.pins.empty() && !model.contact &&
+         !simulation.scene().model.tearing;
+}
+
+/// Way that cloth falls at most until its pins hold it [m], of a sample.
+double slack(const Simulation& simulation) {
+  constexpr std::size_t kSample = 32;
+  const auto& pins = simulation.model().pins;
+  const Positions& now = simulation.state().positions;
+  const Positions& rest = simulation.rest_positions();
+  const auto stride = [](std::size_t n) { return std::max<std::size_t>(1, n / kSample); };
+  const auto n_vertices = static_cast<std::size_t>(now.cols());
+  double most = 0;
+  for (std::size_t i = 0; i < n_vertices; i += stride(n_vertices)) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < pins.size(); k += stride(pins.size())) {
+      const auto pin = pins[k].vertex.value;
+      const auto at = static_cast<Eigen::Index>(i);
+      least = std::min(least,
+                       (rest.col(at) - rest.col(pin)).norm() - (now.col(at) - now.col(pin)).norm());
+    }
+    most = std::max(most, least);
+  }
+  return most;
+}
+
 double driven_speed(const Simulation& simulation) {
   double speed = 0;
   for (const Pin& pin : simulation.model().pins)
@@ -134,10 +167,22 @@ double driven_speed(const Simulation& simulation) {
   return speed;
 }
 
+/// Power of 2, from 4 on, that brings a stretch to its bound where it falls with the square of the
+/// step or the substeps.
+int times_for(const RunWarning& warning) {
+  constexpr int kMost = 64;
+  int times = 4;
+  while (times < kMost && times * times * warning.bound < warning.value) times *= 2;
+  return times;
+}
+
 /// A factor where cg gives up; a stepper that solves for equilibrium where rounds are too few for
-/// it; else four times as many of what the stepper takes more of, or a step of a quarter.
-std::vector<SettingHint> hints_for(RunWarning::Kind kind, const Scene& scene) {
+/// it; else four times as many of what the stepper takes more of, or a step of a quarter; for soft
+/// cloth as many times as it takes.
+std::vector<SettingHint> hints_for(const RunWarning& warning, const Scene& scene) {
+  const RunWarning::Kind kind = warning.kind;
   const MethodOptions& method = scene.method;
+  const int times = kind == RunWarning::Kind::soft ? times_for(warning) : 4;
   std::vector<SettingHint> hints;
   if (kind == RunWarning::Kind::unbalanced && method.stepper->reads("iterations"))
     return {{"/method/stepper", steppers::kImplicitEuler.name}};
@@ -147,20 +192,21 @@ std::vector<SettingHint> hints_for(RunWarning::Kind kind, const Scene& scene) {
   if (is_unsolved && method.stepper->reads("solver") && method.solver == SolverKind::cg)
     hints.push_back({"/method/solver", name(SolverKind::supernodal)});
   if (method.stepper->reads("iterations") && method.iterations < 10)
-    hints.push_back({"/method/iterations", 4 * method.iterations});
+    hints.push_back({"/method/iterations", times * method.iterations});
   if (method.stepper->reads("substeps") && method.substeps != kStableSubsteps)
-    hints.push_back({"/method/substeps", 4 * method.substeps});
-  if (hints.empty()) hints.push_back({"/method/step_s", method.step / 4});
+    hints.push_back({"/method/substeps", times * method.substeps});
+  if (hints.empty()) hints.push_back({"/method/step_s", method.step / times});
   return hints;
 }
 
-constexpr std::array<Word<RunWarning::Kind>, 6> kKinds = {
+constexpr std::array<Word<RunWarning::Kind>, 7> kKinds = {
     {{"stretch", RunWarning::Kind::stretch},
      {"speed", RunWarning::Kind::speed},
      {"unsolved", RunWarning::Kind::unsolved},
      {"not_converged", RunWarning::Kind::not_converged},
      {"given_up", RunWarning::Kind::given_up},
-     {"unbalanced", RunWarning::Kind::unbalanced}}};
+     {"unbalanced", RunWarning::Kind::unbalanced},
+     {"soft", RunWarning::Kind::soft}}};
 
 }  // namespace
 
@@ -172,6 +218,10 @@ std::string sentence(const RunWarning& warning) {
     case RunWarning::Kind::stretch:
       return place + " on, the cloth stretched by up to " + three_digits(100 * warning.value) +
              " %; its load explains " + three_digits(100 * warning.bound) + " %";
+    case RunWarning::Kind::soft:
+      return place + " on, the cloth stretched like a softer fabric, by up to " +
+             three_digits(100 * warning.value) + " %; its own explains " +
+             three_digits(100 * warning.bound) + " %";
     case RunWarning::Kind::speed:
       return place + " on, the cloth was as fast as " + three_digits(warning.value) +
              " m/s; falling and pulling explain " + three_digits(warning.bound) + " m/s";
@@ -236,14 +286,17 @@ RunWatch::RunWatch(const Simulation& simulation) : rest_(simulation) {
   const ClothModel& model = simulation.model();
   const State& state = simulation.state();
   const double weight = model.masses.sum() * model.gravity.norm();
-  const double stiffness = holding_stiffness(simulation);
+  stiffness_ = holding_stiffness(simulation);
   const bool is_surface = simulation.scene().cloth->is_surface();
-  const double pull = stiffness > 0 ? kRoomForMotion * weight / stiffness : 0;
+  const double pull = stiffness_ > 0 ? kRoomForMotion * weight / stiffness_ : 0;
   load_stretch_ =
       is_surface ? std::clamp(pull, kLeastStretch, kMostStretch) : std::max(pull, kLeastStretch);
   // Cloth that starts as the wreck of another run does not explain more wreck.
   start_stretch_ = stretch(simulation.gauge(), state.positions).largest;
   if (is_surface) start_stretch_ = std::min(start_stretch_, kMostStretch);
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  soft_stretch_ = has_known_load(simulation) && stiffness_ > 0 ? kLeastSoftness : kUnknown;
+  start_slack_ = soft_stretch_ < kUnknown ? slack(simulation) : 0;
   start_height_ = greatest_height(up_of(model), state.positions);
   const double mass = model.masses.sum();
   const double stored = elastic_energy(model, state.positions);
@@ -274,22 +327,43 @@ void RunWatch::tell_unbalanced(const Simulation& simulation,
        {RunWarning::Kind::unbalanced, look->time, VertexId(0), look->share, look->bound, {}});
 }
 
+// Weight and air pull at what holds the cloth; what it falls by before they do, and what drives it,
+// comes as a wave of strain v/c, c = sqrt(K/W) the speed of sound along a thread.
+double RunWatch::explained_softness(const Simulation& simulation) const {
+  const ClothModel& model = simulation.model();
+  const FabricConstants& fabric = simulation.scene().fabric;
+  double load = model.masses.sum() * model.gravity.norm();
+  if (model.air) {
+    AirDrag air = *model.air;
+    air.evaluate(simulation.state().positions, simulation.state().velocities);
+    load += air.forces().colwise().norm().sum();
+  }
+  const double fall = std::sqrt(2 * model.gravity.norm() * start_slack_);
+  const double sound =
+      std::sqrt(std::min(fabric.stretch_warp, fabric.stretch_weft) / fabric.areal_density);
+  return kLeastSoftness + kRoomForSwing * load / stiffness_ + start_stretch_ +
+         (fall + driven_speed_ + start_speed_) / sound + stretch_between_pins(simulation);
+}
+
 void RunWatch::check_stretch(const Simulation& simulation) {
   const Positions& positions = simulation.state().positions;
-  RunWarning warning{RunWarning::Kind::stretch,
-                     simulation.time(),
-                     VertexId(0),
-                     0,
-                     load_stretch_ + start_stretch_,
-                     {}};
+  const double most = load_stretch_ + start_stretch_;
+  double worst = 0;
+  VertexId vertex(0);
   for (const GaugeEdge& edge : simulation.gauge()) {
-    if (!is_strained(edge, positions, std::max(warning.value, warning.bound))) continue;
-    warning.value = std::abs(strain(edge, positions));
-    warning.vertex = edge.a;
+    if (!is_strained(edge, positions, std::max(worst, std::min(soft_stretch_, most)))) continue;
+    worst = std::abs(strain(edge, positions));
+    vertex = edge.a;
   }
-  if (warning.value <= warning.bound) return;
-  warning.bound += stretch_between_pins(simulation);
-  if (warning.value > warning.bound) warn(simulation, std::move(warning));
+  const auto told = [&](RunWarning::Kind kind, double bound) {
+    if (worst > bound) warn(simulation, {kind, simulation.time(), vertex, worst, bound, {}});
+  };
+  if (worst > most) told(RunWarning::Kind::stretch, most + stretch_between_pins(simulation));
+  const bool is_nonsense = !warnings_.empty() && warnings_[0].kind == RunWarning::Kind::stretch;
+  if (worst <= soft_stretch_ || is_nonsense || simulation.is_disturbed()) return;
+  soft_stretch_ = std::max(soft_stretch_, explained_softness(simulation));
+  told(RunWarning::Kind::soft, soft_stretch_);
+  soft_stretch_ = std::max(soft_stretch_, worst);
 }
 
 void RunWatch::check_speed(const Simulation& simulation) {
@@ -336,7 +410,7 @@ void RunWatch::warn(const Simulation& simulation, RunWarning warning) {
     }
     return;
   }
-  warning.hints = hints_for(warning.kind, simulation.scene());
+  warning.hints = hints_for(warning, simulation.scene());
   warnings_.push_back(std::move(warning));
   std::stable_partition(warnings_.begin(), warnings_.end(),
                         [](const RunWarning& known) { return known.is_nonsense(); });

@@ -26,6 +26,7 @@ struct RunWarning {
     not_converged,  ///< a step reported it, by more than a thousandth: no nonsense, as the next
     given_up,       ///< a factor solved what the solver that was asked for gave up
     unbalanced,     ///< cloth is at rest where its model is in no equilibrium
+    soft,           ///< cloth stretches more than its fabric would, as yet by no nonsense
   };
   Kind kind;
   double time;      ///< when it was first seen [s]
@@ -70,14 +71,18 @@ class RunWatch {
 
  private:
   void check_stretch(const Simulation& simulation);
+  double explained_softness(const Simulation& simulation) const;
   void check_speed(const Simulation& simulation);
   void check_report(const Simulation& simulation, const SolveReport& step);
   void tell_unbalanced(const Simulation& simulation, const std::optional<RestWatch::Look>& look);
   void warn(const Simulation& simulation, RunWarning warning);
 
+  double stiffness_;         // force per strain of what holds the cloth [N]
   double load_stretch_;      // stretch under the cloth's whole weight, with room for motion [1]
+  double soft_stretch_;      // stretch that the fabric explains, as far as it was asked for [1]
   double start_stretch_;     // [1]
   double start_height_;      // height of the highest vertex against gravity [m]
+  double start_slack_;       // way that cloth falls until its pins hold it [m]
   double start_speed_;       // speed at the start, with what the energy stored there can give [m/s]
   double driven_speed_ = 0;  // the largest so far of pins and solids [m/s]
   int n_unsolved_ = 0;       // looks in a row that saw a step left unsolved

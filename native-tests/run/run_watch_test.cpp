@@ -1,6 +1,7 @@
 #include "core/run/run_watch.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -178,6 +179,57 @@ TEST_CASE("run_watch: pins that pull cloth apart explain its stretch", "[run]") 
   json["refinement"]["level"] = 0;
   const Scene scene = read_scene(JsonReader(json), fabric_library());
   CHECK(warnings_of(scene, 0.5).empty());
+}
+
+// A swatch of 30 cm of chiffon that swings down from its upper edge: its weight, ten times, is
+// worth 0.15 %. One linear step of 1/60 s turns its cells by more than threads follow.
+TEST_CASE("run_watch: cloth that stretches like a softer one is told, and advice mends it",
+          "[run]") {
+  const auto* const type = GENERATE(&steppers::kImplicitEuler, &steppers::kHpbd);
+  CAPTURE(type->name);
+  Json json = parse_json(R"({"fabric": {"name": "chiffon"}, "pins": [{"part": "upper_edge"}],
+      "cloth": {"sheet": {"width_m": 0.3, "height_m": 0.3, "columns": 12, "rows": 12,
+                          "warp_direction": [0, 0, 1], "weft_direction": [1, 0, 0]}}})");
+  json["method"] = {{"stepper", type->name}};
+  Scene scene = read_scene(JsonReader(json), fabric_library());
+  const std::vector<RunWarning> warnings = warnings_of(scene, 0.25);
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].kind == RunWarning::Kind::soft);
+  CHECK_FALSE(warnings[0].is_nonsense());
+  CHECK(warnings[0].bound < 0.004);
+  CHECK(warnings[0].value > 0.005);
+  int n_hints = 0;
+  for (auto left = warnings; !left.empty(); left = warnings_of(scene, 0.25)) {
+    REQUIRE(++n_hints <= 2);
+    scene = advised(scene, left.front());
+  }
+}
+
+// A sheet folded like a fan beside its pins falls until its threads are taut, which takes 0.3 s.
+TEST_CASE("run_watch: a fall through slack explains the jerk that ends it", "[run]") {
+  constexpr int kCells = 8;
+  constexpr double kCell = 0.05;  // [m]
+  Json json = parse_json(R"({"fabric": {"name": "linen"}, "pins": [{"part": "upper_edge"}],
+      "cloth": {"sheet": {"width_m": 0.4, "height_m": 0.4, "columns": 8, "rows": 8,
+                          "warp_direction": [0, -1, 0], "weft_direction": [1, 0, 0]}},
+      "method": {"stepper": "implicit", "substeps": 16}})");
+  Json places = Json::array();
+  for (int row = 0; row <= kCells; ++row)
+    for (int column = 0; column <= kCells; ++column)
+      places.push_back({kCell * column, -0.1 * kCell * row, row % 2 * std::sqrt(0.99) * kCell});
+  const bool is_folded = GENERATE(true, false);
+  if (is_folded) json["start"]["positions_m"] = places;
+  const Scene scene = read_scene(JsonReader(json), fabric_library());
+  Simulation simulation(scene);
+  RunWatch watch(simulation);
+  double largest = 0;
+  while (simulation.time() < 0.5) {
+    watch.check(simulation, simulation.step());
+    largest = std::max(largest, stretch(simulation.gauge(), simulation.state().positions).largest);
+  }
+  CAPTURE(largest);
+  CHECK((largest > 0.003) == is_folded);
+  CHECK(watch.warnings().empty());
 }
 
 TEST_CASE("run_watch: a wreck that goes on with better settings is told as one", "[run]") {

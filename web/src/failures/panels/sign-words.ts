@@ -11,6 +11,7 @@ export const SIGN_TITLES: Record<Sign, string> = {
   not_converged: 'did not converge',
   given_up: 'a solver gave up',
   unbalanced: 'at rest out of balance',
+  soft: 'stretched like a softer fabric',
   ended: 'numbers without end',
 };
 

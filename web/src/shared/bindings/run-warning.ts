@@ -1,6 +1,6 @@
 /** A sign in a run that its scene cannot explain, or a step that did not converge (docs/methods/plausibility.md). */
 export interface RunWarning {
-  kind: 'stretch' | 'speed' | 'unsolved' | 'not_converged' | 'given_up' | 'unbalanced';
+  kind: 'stretch' | 'speed' | 'unsolved' | 'not_converged' | 'given_up' | 'unbalanced' | 'soft';
   /** When it was first seen. */
   time_s: number;
   vertex: number;

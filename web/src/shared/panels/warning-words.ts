@@ -22,6 +22,8 @@ export function warningSentence({ kind, time_s, value, bound }: RunWarning): str
       return `${since} steps did not converge, and left ${percent(value)} of their equations unsolved.`;
     case 'given_up':
       return `${since} a factor solved steps that the solver gave up.`;
+    case 'soft':
+      return `${since} the cloth stretches like a softer fabric, ${stretchText(value)}; its own explains ${percent(bound)}.`;
     case 'unbalanced':
       return `${since} too few rounds hold the cloth up, not its threads: ${percent(value)} of its weight is unbalanced.`;
   }
