@@ -52,10 +52,11 @@ double squared_sum(const Positions& columns, const std::vector<char>& counts) {
   return sum;
 }
 
-/// Velocity of a solid at a place and time [m/s].
+/// Velocity with which a solid came to a place at a time [m/s]: its motion may end there.
 Vec3 velocity_at(const Collider& collider, const Vec3& place, double time) {
+  constexpr double kBefore = 1e-6;  // [s]
   if (collider.motion.kind == Motion::Kind::hold) return Vec3::Zero();
-  return collider.motion.velocity(collider.motion.pose(time).inverse() * place, time);
+  return collider.motion.velocity(collider.motion.pose(time).inverse() * place, time - kBefore);
 }
 
 }  // namespace

@@ -126,6 +126,19 @@ TEST_CASE("equilibrium_check: cloth at rest on a belt is balanced, under which i
   CHECK(share_of(sheet.model, sheet.state) < 1e-3);
 }
 
+TEST_CASE("equilibrium_check: what rides a belt is balanced at the moment that the belt stops",
+          "[run]") {
+  const Vec3 speed(1, 0, 0);
+  FlatSheet sheet;
+  Collider belt = floor_collider(0.3);
+  belt.motion.kind = Motion::Kind::move;
+  belt.motion.offset = kSecond * speed;
+  belt.motion.time_end = kSecond;
+  sheet.put_on(belt);
+  sheet.move(speed);
+  CHECK(share_of(sheet.model, sheet.state) < 1e-3);
+}
+
 // Walls that leave cloth half of its thickness press on it from both sides: rough ones hold it.
 TEST_CASE("equilibrium_check: jaws hold what they close on, smooth ones do not", "[run]") {
   constexpr double kHalfThickness = 5e-4;
