@@ -328,8 +328,11 @@ void RunWatch::tell_unbalanced(const Simulation& simulation,
 }
 
 // Weight and air pull at what holds the cloth; what it falls by before they do, and what drives it,
-// comes as a wave of strain v/c, c = sqrt(K/W) the speed of sound along a thread.
+// comes as a wave of strain v/c, c = sqrt(K/W) the speed of sound along a thread. Pins that pull
+// apart load threads as no one knows.
 double RunWatch::explained_softness(const Simulation& simulation) const {
+  if (stretch_between_pins(simulation) > kLeastSoftness)
+    return std::numeric_limits<double>::infinity();
   const ClothModel& model = simulation.model();
   const FabricConstants& fabric = simulation.scene().fabric;
   double load = model.masses.sum() * model.gravity.norm();
@@ -342,7 +345,7 @@ double RunWatch::explained_softness(const Simulation& simulation) const {
   const double sound =
       std::sqrt(std::min(fabric.stretch_warp, fabric.stretch_weft) / fabric.areal_density);
   return kLeastSoftness + kRoomForSwing * load / stiffness_ + start_stretch_ +
-         (fall + driven_speed_ + start_speed_) / sound + stretch_between_pins(simulation);
+         (fall + driven_speed_ + start_speed_) / sound;
 }
 
 void RunWatch::check_stretch(const Simulation& simulation) {

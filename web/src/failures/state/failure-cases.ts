@@ -48,6 +48,11 @@ const POSITION_BASED: Contestant = {
   method: { stepper: 'xpbd', substeps: 4 },
 };
 
+const FINE_POSITION_BASED: Contestant = {
+  words: 'Position-based, 30 substeps',
+  method: { stepper: 'xpbd', substeps: 30 },
+};
+
 export const CASES: readonly FailureCase[] = [
   {
     id: 'long_step_stiff_cloth',
@@ -104,7 +109,7 @@ export const CASES: readonly FailureCase[] = [
       words: 'Explicit, 400 substeps',
       method: { stepper: 'explicit', substeps: 400, beyond_bound: 'go_on' },
     },
-    ours: POSITION_BASED,
+    ours: FINE_POSITION_BASED,
     sign: 'ended',
     endS: 2,
   },
@@ -161,10 +166,7 @@ export const CASES: readonly FailureCase[] = [
     remedy:
       'Implicit steps find where the forces balance: the whole edge, and the cloth below it, share the pull.',
     sceneText: contradictingPinsText,
-    naive: {
-      words: 'Position-based, 30 substeps',
-      method: { stepper: 'xpbd', substeps: 30 },
-    },
+    naive: FINE_POSITION_BASED,
     ours: IMPLICIT,
     sign: 'stretch',
     endS: 1,
