@@ -27,9 +27,9 @@ double sagitta(double radius, double face_radius) {
   return std::sqrt(radius * radius + face_radius * face_radius) - radius;
 }
 
-/// Distance from a ball to another solid [m]; negative where they overlap.
-double distance(const Sphere& ball, const SolidShape& other) {
-  return gap(swept(other, Clearance{}, Vec3::Zero()), ball.centre).distance - ball.radius;
+/// Distance between balls [m]; negative where they overlap.
+double distance(const Sphere& a, const Sphere& b) {
+  return (a.centre - b.centre).norm() - a.radius - b.radius;
 }
 
 DistanceBudget::Hull hull(const RoundedCone& cone, const Clearance& clearance) {
@@ -88,15 +88,17 @@ ContactPass::ContactPass(std::vector<Collider> colliders, const ContactOptions& 
   set_options(options);
 }
 
-/// Finds what is apart at the start: solids that overlap there are one body, with no gap to keep.
+/// Finds balls that are apart at the start: those that overlap there are one body, with no gap.
 void ContactPass::find_gaps() {
   gaps_.clear();
   if (largest_face_radius_ == 0) return;
   for (std::size_t k = 0; k < colliders_.size(); ++k) {
     const auto* ball = std::get_if<Sphere>(&colliders_[k].shape);
-    for (std::size_t other = 0; ball && other < colliders_.size(); ++other)
-      if (other != k && distance(*ball, colliders_[other].shape) > 2 * options_.half_thickness)
-        gaps_.push_back({k, other});
+    for (std::size_t i = 0; ball && i < colliders_.size(); ++i) {
+      const auto* other = std::get_if<Sphere>(&colliders_[i].shape);
+      if (i != k && other && distance(*ball, *other) > 2 * options_.half_thickness)
+        gaps_.push_back({k, i});
+    }
   }
 }
 
@@ -104,9 +106,10 @@ double ContactPass::most_sagitta(std::size_t ball, std::span<const Pose> poses) 
   double most = std::numeric_limits<double>::infinity();
   for (const auto& [one, other] : gaps_) {
     if (one != ball) continue;
-    const Sphere placed_ball = pleat::placed(std::get<Sphere>(colliders_[one].shape), poses[one]);
-    const double apart =
-        distance(placed_ball, pleat::placed(colliders_[other].shape, poses[other]));
+    const auto ball_at = [&](std::size_t k) {
+      return pleat::placed(std::get<Sphere>(colliders_[k].shape), poses[k]);
+    };
+    const double apart = distance(ball_at(one), ball_at(other));
     most = std::min(most, std::max(0.0, apart / 2 - options_.half_thickness) / 2);
   }
   return most;
@@ -267,11 +270,13 @@ double ContactPass::bare_height(const Solid& solid, const Vec3& place) const {
   return gap(bare, place).distance;
 }
 
-/// True where two rough solids leave less between them than the cloth is thick: they press as hard
-/// as it takes, so that nothing pulls it out.
+/// True at a place where two rough solids leave less between them than the cloth is thick: they
+/// press as hard as it takes, so that nothing pulls it out.
 bool ContactPass::grips(const Solid& a, const Solid& b, const Vec3& place) const {
-  return a.friction > 0 && b.friction > 0 &&
-         bare_height(a, place) + bare_height(b, place) < 2 * options_.half_thickness;
+  if (a.friction <= 0 || b.friction <= 0) return false;
+  const double above_a = bare_height(a, place);
+  const double above_b = bare_height(b, place);
+  return above_a >= 0 && above_b >= 0 && above_a + above_b < 2 * options_.half_thickness;
 }
 
 // One solid acts at a time, the earliest first. With n its normal where the vertex meets it at the
@@ -302,6 +307,7 @@ std::optional<ContactPass::Touch> ContactPass::resolve(VertexId vertex, const Ve
       if (bare_height(*before, middle) < 0 || bare_height(*meeting.solid, middle) < 0) break;
       position = middle;
       if (!grips(*before, *meeting.solid, middle)) break;
+      if (!grips(*before, *meeting.solid, position_begin)) break;
       touch.sticks = true;
       velocity = (velocity_at(*before, middle) + velocity_at(*meeting.solid, middle)) / 2;
       position += tangential(position_begin + substep_ * velocity - middle, touch.normal);

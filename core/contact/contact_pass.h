@@ -61,8 +61,8 @@ class ContactPass {
 
   /// Distance off the solid's surface at which the vertex is held [m]: half the thickness, and off
   /// a ball of radius R also the sagitta sqrt(R^2 + c^2) - R of a face of radius c; off a rounded
-  /// cone that of the balls at its ends, linearly between. In a substep the sagitta of a ball that
-  /// is apart from another solid leaves cloth half of the room between them.
+  /// cone that of the balls at its ends, linearly between. In a substep the sagittas of balls that
+  /// are apart leave cloth half of the room between them, all round.
   Clearance clearance(const Collider& collider, VertexId vertex) const;
 
   /// Places the solids at both ends of a substep [s]. Throws ContractError unless time_end >
@@ -222,7 +222,7 @@ class ContactPass {
   ContactOptions options_;
   double largest_face_radius_ = 0;  // [m]
   bool is_graded_ = false;          // vertices differ in it
-  /// Index of a ball and of another solid that is apart from it at the start.
+  /// Indices of a ball and of another one that is apart from it at the start.
   std::vector<std::array<std::size_t, 2>> gaps_;
   double substep_ = 0;             // [s]
   std::vector<Solid> solids_;      // one per collider

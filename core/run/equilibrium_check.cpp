@@ -165,12 +165,11 @@ void EquilibriumCheck::press_from_both_sides() {
   std::vector<Contact*> known(static_cast<std::size_t>(model_.n_vertices()), nullptr);
   for (Contact& contact : contacts_) {
     Contact*& other = known[contact.vertex];
-    if (other && other->depth > 0 && contact.depth > 0 &&
-        other->normal.dot(contact.normal) < kOpposed) {
+    if (other && contact.depth > 0 && other->normal.dot(contact.normal) < kOpposed) {
       other->target += other->depth * other->normal;
       contact.target += contact.depth * contact.normal;
     }
-    other = &contact;
+    if (contact.depth > 0) other = &contact;
   }
 }
 

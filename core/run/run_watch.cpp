@@ -351,22 +351,29 @@ double RunWatch::explained_softness(const Simulation& simulation) const {
 void RunWatch::check_stretch(const Simulation& simulation) {
   const Positions& positions = simulation.state().positions;
   const double most = load_stretch_ + start_stretch_;
-  double worst = 0;
-  VertexId vertex(0);
-  for (const GaugeEdge& edge : simulation.gauge()) {
-    if (!is_strained(edge, positions, std::max(worst, std::min(soft_stretch_, most)))) continue;
-    worst = std::abs(strain(edge, positions));
-    vertex = edge.a;
-  }
-  const auto told = [&](RunWarning::Kind kind, double bound) {
-    if (worst > bound) warn(simulation, {kind, simulation.time(), vertex, worst, bound, {}});
+  struct Worst {
+    double strain = 0;
+    VertexId vertex{0};
   };
-  if (worst > most) told(RunWarning::Kind::stretch, most + stretch_between_pins(simulation));
+  Worst longest, worst;  // elongation alone; either
+  for (const GaugeEdge& edge : simulation.gauge()) {
+    const double least = std::min(soft_stretch_, most);
+    if (!is_strained(edge, positions, std::max(longest.strain, least))) continue;
+    const double by = strain(edge, positions);
+    if (by > longest.strain) longest = {by, edge.a};
+    if (std::abs(by) > worst.strain) worst = {std::abs(by), edge.a};
+  }
+  const auto tell = [&](RunWarning::Kind kind, const Worst& of, double bound) {
+    if (of.strain <= bound) return;
+    warn(simulation, {kind, simulation.time(), of.vertex, of.strain, bound, {}});
+  };
+  if (worst.strain > most)
+    tell(RunWarning::Kind::stretch, worst, most + stretch_between_pins(simulation));
   const bool is_nonsense = !warnings_.empty() && warnings_[0].kind == RunWarning::Kind::stretch;
-  if (worst <= soft_stretch_ || is_nonsense || simulation.is_disturbed()) return;
+  if (longest.strain <= soft_stretch_ || is_nonsense || simulation.is_disturbed()) return;
   soft_stretch_ = std::max(soft_stretch_, explained_softness(simulation));
-  told(RunWarning::Kind::soft, soft_stretch_);
-  soft_stretch_ = std::max(soft_stretch_, worst);
+  tell(RunWarning::Kind::soft, longest, soft_stretch_);
+  soft_stretch_ = std::max(soft_stretch_, longest.strain);
 }
 
 void RunWatch::check_speed(const Simulation& simulation) {
