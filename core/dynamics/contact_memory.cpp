@@ -133,6 +133,11 @@ ContactMemory::Plan ContactMemory::planned(const Touch& touch, const State& begi
   return plan;
 }
 
+void ContactMemory::let_slip(VertexId vertex) {
+  const auto is_before = [](const Plan& plan, VertexId v) { return plan.touch.vertex < v; };
+  std::lower_bound(plans_.begin(), plans_.end(), vertex, is_before)->grip = 0;
+}
+
 void ContactMemory::turn_forces(const State& begin, double h) {
   if (!has_forces()) return;
   for (const Touch& touch : touches_) {

@@ -53,6 +53,11 @@ class ContactMemory {
   std::span<Plan> plans() { return plans_; }
   std::span<const Plan> plans() const { return plans_; }
 
+  /// Friction coefficient of the solid that is touched.
+  double friction_of(const Touch& touch) const;
+  /// Lets a planned vertex slip in this substep.
+  void let_slip(VertexId vertex);
+
   /// Turns the remembered forces alone, of steppers that hold nothing.
   void turn_forces(const State& begin, double h);
 
@@ -85,7 +90,6 @@ class ContactMemory {
   bool has_forces() const { return forces_.cols() > 0; }
 
  private:
-  double friction_of(const Touch& touch) const;
   bool has_left(const Touch& touch, const State& begin, double h) const;
   void foresee(const State& begin, double h);
   Plan planned(const Touch& touch, const State& begin, double h, double resistance, Pressing of);

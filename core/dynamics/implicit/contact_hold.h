@@ -19,8 +19,9 @@ namespace pleat {
 /// Applications 4, 1969; docs/methods/contact.md.
 class ContactHold {
  public:
-  /// How often a substep is solved anew without vertices that were pulled. Once finds nearly all.
-  static constexpr int kMaxRepeats = 2;
+  /// How often a substep is solved anew with vertices that came loose: one or two find nearly all,
+  /// but where a stretched sheet comes loose from its border.
+  static constexpr int kMaxRepeats = 8;
 
   /// share     share of what a vertex resists with alone, with which it is held
   /// pressing  what friction of slipping vertices goes by
@@ -36,6 +37,8 @@ class ContactHold {
     double turn_force;  // force that turns its velocity round the solid [N]
     Vec3 force;         // remembered one, among the loads [N]
     bool may_be_freed;  // is held no longer where it would be pulled
+    bool sticks;        // slips where it would be rubbed beyond friction
+    double friction;    // coefficient
   };
 
   /// Takes them from the matrix of a substep without holds; mass_unit turns its entries into kg.
@@ -48,14 +51,15 @@ class ContactHold {
               const SystemMatrix* matrix = nullptr, double mass_unit = 1);
   std::span<const Held> held() const { return held_; }
 
-  /// Finds those whom a solid would pull back at these velocities [m/s]: they are held no longer,
-  /// and have to be taken out of the equations. Valid until the next call.
-  std::span<const Held> free_pulled(ContactMemory& memory, const Positions& velocities, double h);
+  /// Frees those whom a solid would pull back at these velocities [m/s], and lets those slip whom
+  /// it would rub beyond friction. Gives what their holds lost, which has to be taken out of the
+  /// equations; valid until the next call.
+  std::span<const Held> let_loose(ContactMemory& memory, const Positions& velocities, double h);
 
   /// Adds what holds them to A dv = rhs, a linearised step from these velocities, A in kg.
   void add(const Positions& velocities, double h, SystemMatrix& matrix, PositionsRef rhs) const;
-  /// Takes what held those who were freed out of it.
-  void take_out(std::span<const Held> freed, const Positions& velocities, double h,
+  /// Takes what holds have lost out of it.
+  void take_out(std::span<const Held> lost, const Positions& velocities, double h,
                 SystemMatrix& matrix, PositionsRef rhs) const;
 
   /// Adds the forces that they exert at the velocities of the solution [m/s].
@@ -65,12 +69,17 @@ class ContactHold {
   const Eigen::VectorXd& resistances() const { return resistances_; }
 
  private:
+  bool is_pulled(const Held& held, const Vec3& force) const;
+  Held freed(const Held& held) const;
+  bool is_torn_loose(const Held& held, const Vec3& force) const;
+  static Held slipping(const Held& held, const Vec3& force);
+
   const ClothModel& model_;
   double share_;
   Pressing pressing_;
   Eigen::VectorXd resistances_;
   std::vector<Held> held_;
-  std::vector<Held> freed_;
+  std::vector<Held> lost_;
 };
 
 }  // namespace pleat

@@ -60,7 +60,7 @@ SolveReport StepperImplicit::solve(const State& state, double time_end, double h
   if (!hold_) return report;
   for (int n = 0; n < ContactHold::kMaxRepeats && !report.ends_run(); ++n) {
     velocities_ = state.velocities + solve_.changes();
-    const auto freed = hold_->free_pulled(contact_memory_, velocities_, h);
+    const auto freed = hold_->let_loose(contact_memory_, velocities_, h);
     if (freed.empty()) break;
     hold_->take_out(freed, state.velocities, h, *matrix_, forces_);
     SolveReport again = solve_.find_changes_again(*matrix_, forces_, state, h, observer_);

@@ -18,7 +18,9 @@ constexpr int kMaxEquilibriumIterations = 5000;
 constexpr int kMaxHalvings = 40;              // halvings of a step along a direction
 constexpr double kLargestShare = 1024;        // limit for a direction of the projected Hessian
 constexpr double kSufficientDecrease = 1e-4;  // Armijo's condition
+constexpr double kHiddenDecrease = 1e-9;      // share of the potential that rounding may hide
 constexpr double kShiftFactor = 4;            // the shift follows the steps by this factor
+constexpr double kHoldTolerance = 1e-6;       // tolerance of minima by which holds are judged
 constexpr double kLinearTolerance = 1e-3;     // relative residual of the first linear solve
 constexpr double kIterativeTolerance = 1e-6;  // relative residual with a solver that has no factor
 constexpr int kMaxLinearIterations = 15;  // limit for a kept factor; more cost as much as a new one
@@ -122,11 +124,10 @@ void StepperNewton::add_holds(std::span<const ContactHold::Held> holds, double s
   }
 }
 
-/// Frees those whom a solid would pull; false where there are none.
-bool StepperNewton::free_pulled() {
-  if (!hold_) return false;
+/// Lets those go that a solid would pull or rub too much; false where there are none.
+bool StepperNewton::let_loose() {
   velocities_ = (positions_ - positions_begin_) / interval_;
-  const auto freed = hold_->free_pulled(contact_memory_, velocities_, interval_);
+  const auto freed = hold_->let_loose(contact_memory_, velocities_, interval_);
   if (freed.empty()) return false;
   matrix_.set_values(base_);
   add_holds(freed, -1);
@@ -273,6 +274,18 @@ SolveReport StepperNewton::find_direction() {
   return report;
 }
 
+/// True where the whole direction leaves half of the gradient at most.
+bool StepperNewton::halves_gradient() {
+  const double before = gradient_.norm();
+  trial_ = positions_;
+  positions_ += direction_;
+  evaluate_gradient();
+  const bool halves = gradient_.norm() <= before / 2;
+  positions_ = trial_;
+  evaluate_gradient();
+  return halves;
+}
+
 /// The share of the direction after which the potential is lower; 0 when there is none.
 double StepperNewton::search_line() {
   const PartScope scope(observer_, Part::solve);
@@ -284,6 +297,8 @@ double StepperNewton::search_line() {
     trial_ = positions_ + share * direction_;
     return potential(trial_, nullptr);
   };
+  // Strains are differences of lengths: their rounding may hide what the gradient shows.
+  if (-slope <= kHiddenDecrease * magnitude && halves_gradient()) return 1;
   double share = 1;
   for (int halving = 0; halving < kMaxHalvings; ++halving, share /= 2) {
     double reached = potential_at(share);
@@ -320,7 +335,20 @@ void StepperNewton::push_off(int attempt) {
   evaluate_gradient();
 }
 
-SolveReport StepperNewton::minimise() {
+/// Finds by coarse minima which holds stay; the number of iterations.
+int StepperNewton::find_holds() {
+  int n_iterations = 0;
+  if (!hold_ || hold_->held().empty()) return n_iterations;
+  for (int n = 0; n < ContactHold::kMaxRepeats; ++n) {
+    const SolveReport report = minimise(kHoldTolerance);
+    n_iterations += report.iterations;
+    if (!report.ok() || !let_loose()) break;
+  }
+  return n_iterations;
+}
+
+/// tolerance  of the last direction, as a share of the cloth's extent
+SolveReport StepperNewton::minimise(double tolerance) {
   const int max_iterations = is_at_rest() ? kMaxEquilibriumIterations : kMaxIterations;
   shift_ = 0;
   int n_pushes = 0;
@@ -331,7 +359,7 @@ SolveReport StepperNewton::minimise() {
     SolveReport solved = find_direction();
     if (!solved.ok()) return solved;
     report.iterations = iteration;
-    const bool is_last = shift_ == 0 && largest_norm(direction_) <= options().tolerance * extent_;
+    const bool is_last = shift_ == 0 && largest_norm(direction_) <= tolerance * extent_;
     const double share = is_last ? 1 : search_line();
     positions_ += share * direction_;
     evaluate_gradient();
@@ -363,12 +391,9 @@ SolveReport StepperNewton::substep(State& state, double time_end, double h) {
   if (model_.air && options().rule == NewtonRule::midpoint) model_.air->set_time(time_end - h / 2);
   set_up(state, h);
   place_first_guess(state, time_end);
-  SolveReport report = minimise();
-  for (int n = 0; n < ContactHold::kMaxRepeats && report.ok() && free_pulled(); ++n) {
-    const int n_iterations = report.iterations;
-    report = minimise();
-    report.iterations += n_iterations;
-  }
+  const int n_iterations = find_holds();
+  SolveReport report = minimise(options().tolerance);
+  report.iterations += n_iterations;
   if (report.ends_run()) return report;
   if (hold_) {
     velocities_ = (positions_ - positions_begin_) / interval_;

@@ -39,9 +39,10 @@ class StepperNewton final : public Stepper {
   void set_up(const State& state, double h);
   void hold(const State& state, double h);
   void add_holds(std::span<const ContactHold::Held> holds, double sign);
-  bool free_pulled();
+  bool let_loose();
   void place_first_guess(const State& state, double time_end);
-  SolveReport minimise();
+  int find_holds();
+  SolveReport minimise(double tolerance);
   bool is_stable();
   void push_off(int attempt);
   void evaluate_gradient();
@@ -51,6 +52,7 @@ class StepperNewton final : public Stepper {
   SolveReport solve_with_kept_factor();
   SolveReport solve_linear_system();
   SolveReport find_direction();
+  bool halves_gradient();
   double search_line();
   /// The squared frequency of a pendulum as long as the cloth: brings it to rest fastest [1/s^2].
   double first_shift() const { return std::max(model_.gravity.norm(), 1.0) / extent_; }

@@ -185,7 +185,7 @@ double StepperProjective::hold_excess(VertexId vertex) const {
 bool StepperProjective::free_pulled(double h) {
   if (!hold_) return false;
   velocities_ = (positions_ - positions_begin_) / h;
-  const auto freed = hold_->free_pulled(contact_memory_, velocities_, h);
+  const auto freed = hold_->let_loose(contact_memory_, velocities_, h);
   for (const ContactHold::Held& held : freed) {
     const VertexId v = held.vertex;
     predicted_.col(v) -= h * h / model_.masses[v] * held.force;
