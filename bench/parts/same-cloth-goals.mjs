@@ -33,8 +33,10 @@ function flagGoals(rows) {
 }
 
 function swatchGoals(rows) {
-  const fine = computed(rows).filter((row) => row.case.includes('60 x 60'));
-  return [atMost('fine_swatch_largest_stretch', largest(fine.map(off)), 0.002)];
+  const fine = computed(rows).filter(
+    (row) => row.stepper === 'xpbd' && row.case.includes('60 x 60'),
+  );
+  return [atMost('fine_swatch_largest_stretch_xpbd', largest(fine.map(off)), 0.002)];
 }
 
 function ballGoals(rows) {

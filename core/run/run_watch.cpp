@@ -22,8 +22,10 @@ constexpr double kRoomForMotion = 10;
 /// load. Particles with springs of their own may be made for it.
 constexpr double kMostStretch = 1;
 /// Pinned cloth that swings pulls by so many times its weight and air, beside a stretch that fabric
-/// is not felt to have.
+/// is not felt to have: a pendulum by three times, where a level row of pins shares it; a few pins
+/// load single threads.
 constexpr double kRoomForSwing = 10;
+constexpr double kRoomForEvenSwing = 3;
 constexpr double kLeastSoftness = 0.002;
 /// The free end of a whip is so many times as fast as its handle.
 constexpr double kWhip = 4;
@@ -152,6 +154,20 @@ double slack(const Simulation& simulation) {
     most = std::max(most, least);
   }
   return most;
+}
+
+/// Hung from as many pins as a row has, side by side at one height: all threads bear the same.
+bool is_hung_evenly(const Simulation& simulation) {
+  constexpr double kLevel = 0.1;  // share of the row's length by which heights may differ
+  const ClothModel& model = simulation.model();
+  const auto n_pins = static_cast<double>(model.pins.size());
+  if (n_pins * n_pins < model.n_vertices()) return false;
+  const Positions& now = simulation.state().positions;
+  Positions held(3, static_cast<Eigen::Index>(model.pins.size()));
+  for (std::size_t p = 0; p < model.pins.size(); ++p)
+    held.col(static_cast<Eigen::Index>(p)) = now.col(model.pins[p].vertex);
+  const Eigen::RowVectorXd heights = up_of(model).transpose() * held;
+  return heights.maxCoeff() - heights.minCoeff() <= kLevel * box_diagonal(held);
 }
 
 double driven_speed(const Simulation& simulation) {
@@ -297,6 +313,7 @@ RunWatch::RunWatch(const Simulation& simulation) : rest_(simulation) {
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   soft_stretch_ = has_known_load(simulation) && stiffness_ > 0 ? kLeastSoftness : kUnknown;
   start_slack_ = soft_stretch_ < kUnknown ? slack(simulation) : 0;
+  room_for_swing_ = is_hung_evenly(simulation) ? kRoomForEvenSwing : kRoomForSwing;
   start_height_ = greatest_height(up_of(model), state.positions);
   const double mass = model.masses.sum();
   const double stored = elastic_energy(model, state.positions);
@@ -344,7 +361,7 @@ double RunWatch::explained_softness(const Simulation& simulation) const {
   const double fall = std::sqrt(2 * model.gravity.norm() * start_slack_);
   const double sound =
       std::sqrt(std::min(fabric.stretch_warp, fabric.stretch_weft) / fabric.areal_density);
-  return kLeastSoftness + kRoomForSwing * load / stiffness_ + start_stretch_ +
+  return kLeastSoftness + room_for_swing_ * load / stiffness_ + start_stretch_ +
          (fall + driven_speed_ + start_speed_) / sound;
 }
 

@@ -79,6 +79,7 @@ class RunWatch {
 
   double stiffness_;         // force per strain of what holds the cloth [N]
   double load_stretch_;      // stretch under the cloth's whole weight, with room for motion [1]
+  double room_for_swing_;    // weights that a swing pulls by at most
   double soft_stretch_;      // stretch that the fabric explains, as far as it was asked for [1]
   double start_stretch_;     // [1]
   double start_height_;      // height of the highest vertex against gravity [m]

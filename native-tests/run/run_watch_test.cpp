@@ -205,6 +205,24 @@ TEST_CASE("run_watch: cloth that stretches like a softer one is told, and advice
   }
 }
 
+// A pendulum pulls by three weights at most, where its pins share them: 3.7 % of spandex of 60 cm.
+// Two corners bear more on single threads than anyone knows.
+TEST_CASE("run_watch: a level row of pins shares a swing, two corners do not", "[run]") {
+  Json json = parse_json(R"({"fabric": {"name": "spandex"}, "pins": [{"part": "upper_edge"}],
+      "cloth": {"sheet": {"width_m": 0.6, "height_m": 0.6, "columns": 12, "rows": 12,
+                          "warp_direction": [0, 0, 1], "weft_direction": [1, 0, 0]}},
+      "method": {"stepper": "hpbd"}})");
+  const Scene row = read_scene(JsonReader(json), fabric_library());
+  const double weight = 9.81 * Simulation(row).model().masses.sum();
+  const double least_stiffness = std::min(row.fabric.stretch_warp, row.fabric.stretch_weft);
+  const auto warnings = warnings_of(row, 0.25);
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].kind == RunWarning::Kind::soft);
+  CHECK(warnings[0].bound == Approx(0.002 + 3 * weight / (13 * 0.05 * least_stiffness)));
+  json["pins"] = {{{"part", "upper_left"}}, {{"part", "upper_right"}}};
+  CHECK(warnings_of(read_scene(JsonReader(json), fabric_library()), 0.25).empty());
+}
+
 // A sheet folded like a fan beside its pins falls until its threads are taut, which takes 0.3 s.
 TEST_CASE("run_watch: a fall through slack explains the jerk that ends it", "[run]") {
   constexpr int kCells = 8;
