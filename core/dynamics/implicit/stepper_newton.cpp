@@ -297,8 +297,9 @@ double StepperNewton::search_line() {
     trial_ = positions_ + share * direction_;
     return potential(trial_, nullptr);
   };
-  // Strains are differences of lengths: their rounding may hide what the gradient shows.
-  if (-slope <= kHiddenDecrease * magnitude && halves_gradient()) return 1;
+  // Strains are differences of lengths: their rounding may hide what the gradient shows. Beside a
+  // saddle, where the Hessian is projected, a smaller gradient is no sign of a minimum.
+  if (!is_projected_ && -slope <= kHiddenDecrease * magnitude && halves_gradient()) return 1;
   double share = 1;
   for (int halving = 0; halving < kMaxHalvings; ++halving, share /= 2) {
     double reached = potential_at(share);
