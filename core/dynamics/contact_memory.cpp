@@ -16,13 +16,17 @@ Vec3 turned(const Vec3& vector, const Vec3& from, const Vec3& to) {
   return Eigen::Quaterniond::FromTwoVectors(from, to) * vector;
 }
 
+/// A vector, made shorter where it is longer than that.
+Vec3 at_most(const Vec3& vector, double length) {
+  const double size = vector.norm();
+  return size > length ? Vec3(length / size * vector) : vector;
+}
+
 /// A force within Coulomb's cone about a unit normal.
 Vec3 in_cone(const Vec3& force, const Vec3& normal, double friction) {
   const double pressing = normal.dot(force);
-  const Vec3 rubbing = force - pressing * normal;
   const double most = friction * std::max(pressing, 0.0);
-  const double size = rubbing.norm();
-  return size > most ? Vec3(pressing * normal + most / size * rubbing) : force;
+  return pressing * normal + at_most(force - pressing * normal, most);
 }
 
 /// Adds the touches of vertices that are not among them yet; both in the order of the vertices.
@@ -49,6 +53,7 @@ ContactMemory::ContactMemory(ClothModel& model, ContactForces wanted) : model_(m
   plans_.reserve(n_vertices);
   positions_begin_.resize(3, model.n_vertices());
   velocities_begin_.resize(3, model.n_vertices());
+  stopped_ = Eigen::VectorXd::Zero(model.n_vertices());
 }
 
 std::span<const char> ContactMemory::exempt() {
@@ -98,7 +103,9 @@ void ContactMemory::foresee(const State& begin, double h) {
 // leads onto the surface. Friction is at most the impulse b = mu h p, with p = n'.f less what turns
 // the way round the solid, see settle(). At the slip s, which changes as in the last substep or not
 // at all, whichever is faster, a hold of the share b/(r s) across n' takes that much; with all of r
-// the vertex sticks. While it slips its friction is of this hold alone, and none is remembered.
+// the vertex sticks. While it slips its friction is of this hold alone, and none is remembered. It
+// is that of the last substep's force: should the vertex leave, it still has to be rubbed by it,
+// and by what settling took of its fall.
 ContactMemory::Plan ContactMemory::planned(const Touch& touch, const State& begin, double h,
                                            double resistance, Pressing of) {
   const VertexId v = touch.vertex;
@@ -118,24 +125,23 @@ ContactMemory::Plan ContactMemory::planned(const Touch& touch, const State& begi
   const double pressing = std::max(gap.normal.dot(force), 0.0);
   const double turn = std::max(gap.normal.dot(plan.velocity - solid_velocity), 0.0);
   const double rubbing = std::max(pressing - model_.masses[v] / h * turn, 0.0);
-  const double brake = friction_of(touch) * h * rubbing;
+  const Vec3 fall = begin.velocities.col(v) + h * model_.gravity;
+  const double stop = model_.masses[v] * (gap.normal.dot(plan.velocity - fall) - turn);
+  const bool goes_by_mass = of == Pressing::of_own_mass && rubbing > 0;
+  const double brake = friction_of(touch) * (goes_by_mass ? std::max(stop, 0.0) : h * rubbing);
+  plan.owed = friction_of(touch) * std::max(rubbing + stopped_[v] / h, 0.0);
   const Vec3 last_change = begin.velocities.col(v) - velocities_begin_.col(v);
   const double slip = std::max(across(along + last_change, gap.normal).norm(), along.norm());
   const double whole = resistance * slip;
   const bool sticks = brake > 0 && brake >= whole;
   if (brake > 0) plan.grip = sticks ? 1 : brake / whole;
-  if (!sticks && brake > 0 && whole > 0 && of == Pressing::of_own_mass) {
-    const Vec3 fall = begin.velocities.col(v) + h * model_.gravity;
-    const double stop = model_.masses[v] * gap.normal.dot(plan.velocity - fall);
-    plan.grip = std::min(friction_of(touch) * std::max(stop, 0.0) / whole, 1.0);
-  }
   forces_.col(v) = sticks ? force : Vec3(pressing * gap.normal);
   return plan;
 }
 
-void ContactMemory::let_slip(VertexId vertex) {
+ContactMemory::Plan& ContactMemory::plan_of(VertexId vertex) {
   const auto is_before = [](const Plan& plan, VertexId v) { return plan.touch.vertex < v; };
-  std::lower_bound(plans_.begin(), plans_.end(), vertex, is_before)->grip = 0;
+  return *std::lower_bound(plans_.begin(), plans_.end(), vertex, is_before);
 }
 
 void ContactMemory::turn_forces(const State& begin, double h) {
@@ -183,7 +189,8 @@ void ContactMemory::let_go(VertexId vertex, State& state, double h, double resis
 // A vertex that is pressed ends on the surface, which curves away from the tangent that the solve
 // held it to, and without velocity off it. This takes half of the way round from it, which the
 // force does not know of: on a ball of radius R the force comes to m (g.n - w^2/2R). One that is
-// not pressed by as much as that takes leaves, and is given back what pulled it.
+// not pressed by as much as that takes leaves, and is given back what pulled it, or rubbed it more
+// than it was owed.
 void ContactMemory::settle(const Plan& plan, State& state, double h, double resistance) {
   const VertexId v = plan.touch.vertex;
   auto force = forces_.col(v);
@@ -191,13 +198,15 @@ void ContactMemory::settle(const Plan& plan, State& state, double h, double resi
   const Vec3 solid_velocity = model_.contact->solid_velocity(plan.touch, positions_begin_.col(v));
   const double turn = std::max(plan.normal.dot(plan.velocity - solid_velocity), 0.0);
   const double pressing = plan.normal.dot(force);
-  if (pressing <= model_.masses[v] / h * turn) {
+  if (plan.leaves || pressing <= model_.masses[v] / h * turn) {
     const Vec3 pull = std::min(pressing, 0.0) * plan.normal;
     const Vec3 rubbing = force - pressing * plan.normal;
-    const Vec3 change = h * (pull / plan.resistance + rubbing / resistance);
+    const Vec3 excess = rubbing - at_most(rubbing, plan.owed);
+    const Vec3 change = h * (pull / plan.resistance + excess / resistance);
     velocity -= change;
     state.positions.col(v) -= h * change;
     force.setZero();
+    stopped_[v] = 0;
     return;
   }
   Touch touch = plan.touch;
@@ -206,8 +215,9 @@ void ContactMemory::settle(const Plan& plan, State& state, double h, double resi
   touch.normal = gap.normal;
   force = turned(in_cone(force, plan.normal, friction_of(touch)), plan.normal, gap.normal);
   state.positions.col(v) -= gap.distance * gap.normal;
-  const Vec3 slide = velocity - solid_velocity;
-  velocity -= gap.normal.dot(slide) * gap.normal;
+  const double leaving = gap.normal.dot(velocity - solid_velocity);
+  velocity -= leaving * gap.normal;
+  stopped_[v] = -model_.masses[v] * leaving;
   settled_.push_back(touch);
 }
 
@@ -249,6 +259,7 @@ void ContactMemory::forget_untouched() {
   Eigen::Index first_untouched = 0;
   const auto forget_until = [&](Eigen::Index end) {
     forces_.middleCols(first_untouched, end - first_untouched).setZero();
+    stopped_.segment(first_untouched, end - first_untouched).setZero();
   };
   for (const Touch& touch : touches_) {
     forget_until(touch.vertex);
@@ -295,6 +306,7 @@ void ContactMemory::add(std::span<const Touch> touches, const State& state, doub
 void ContactMemory::restart(const Positions& forces) {
   touches_.clear();
   forces_ = forces;
+  stopped_.setZero();
 }
 
 }  // namespace pleat

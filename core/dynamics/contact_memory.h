@@ -31,6 +31,8 @@ class ContactMemory {
     Vec3 velocity{0, 0, 0};  // velocity that leads there [m/s]
     double grip = 0;         // share of the hold along the normal with which it is held across it
     double resistance = 0;   // how much the vertex alone resists along the normal [kg]
+    double owed = 0;         // friction that is left to it should it leave [N]
+    bool leaves = false;     // a solve found the solid pulling it
   };
 
   /// Forces are remembered only where the model has solids on which cloth rests.
@@ -55,8 +57,9 @@ class ContactMemory {
 
   /// Friction coefficient of the solid that is touched.
   double friction_of(const Touch& touch) const;
-  /// Lets a planned vertex slip in this substep.
-  void let_slip(VertexId vertex);
+  /// Lets a planned vertex slip in this substep, or leave its solid.
+  void let_slip(VertexId vertex) { plan_of(vertex).grip = 0; }
+  void let_leave(VertexId vertex) { plan_of(vertex).leaves = true; }
 
   /// Turns the remembered forces alone, of steppers that hold nothing.
   void turn_forces(const State& begin, double h);
@@ -90,6 +93,7 @@ class ContactMemory {
   bool has_forces() const { return forces_.cols() > 0; }
 
  private:
+  Plan& plan_of(VertexId vertex);
   bool has_left(const Touch& touch, const State& begin, double h) const;
   void foresee(const State& begin, double h);
   Plan planned(const Touch& touch, const State& begin, double h, double resistance, Pressing of);
@@ -111,6 +115,7 @@ class ContactMemory {
   bool has_planned_ = false;     // any substep
   Positions positions_begin_;    // start of a planned substep
   Positions velocities_begin_;   // there [m/s]
+  Eigen::VectorXd stopped_;      // momentum that settling took along the normal [N s]
   Positions solved_velocities_;  // velocities before contact [m/s]
 };
 

@@ -28,7 +28,6 @@ void ContactHold::choose(ContactMemory& memory, const State& begin, double h,
                          const SystemMatrix* matrix, double mass_unit) {
   memory.plan(begin, h, resistances_, share_, pressing_);
   held_.clear();
-  const bool is_exact = pressing_ == Pressing::remembered;
   for (ContactMemory::Plan& plan : memory.plans()) {
     const VertexId v = plan.touch.vertex;
     if (matrix) plan.resistance = mass_unit * matrix->diagonal_along(v, plan.normal);
@@ -38,8 +37,8 @@ void ContactHold::choose(ContactMemory& memory, const State& begin, double h,
     const double turn = std::max(plan.normal.dot(plan.velocity - solid_velocity), 0.0);
     held_.push_back({v, share_ * resistances_[v] * hold, plan.velocity, plan.normal,
                      model_.masses[v] / h * turn, memory.forces().col(v), !plan.touch.in_corner,
-                     is_exact && plan.grip == 1 && !plan.touch.in_corner,
-                     memory.friction_of(plan.touch)});
+                     plan.grip == 1 && !plan.touch.in_corner, memory.friction_of(plan.touch),
+                     plan.owed});
   }
 }
 
@@ -48,10 +47,13 @@ bool ContactHold::is_pulled(const Held& held, const Vec3& force) const {
   return held.may_be_freed && held.normal.dot(force) < -least;
 }
 
-ContactHold::Held ContactHold::freed(const Held& held) const {
+ContactHold::Held ContactHold::freed(const Held& held, const Vec3& force) {
+  const Vec3& n = held.normal;
+  const double rubbing = (force - n.dot(force) * n).norm();
+  const double share = rubbing > held.owed ? held.owed / rubbing : 1;
   Held freed = held;
   freed.may_be_freed = freed.sticks = false;
-  freed.resistance.setZero();
+  freed.resistance = share * (held.resistance - n.dot(held.resistance * n) * n * n.transpose());
   freed.force.setZero();
   return freed;
 }
@@ -71,6 +73,7 @@ ContactHold::Held ContactHold::slipping(const Held& held, const Vec3& force) {
   const Vec3 way = (force - pressing * n).normalized();
   Held slipping = held;
   slipping.sticks = false;
+  slipping.owed = 0;
   slipping.force = n.dot(held.force) * n + held.friction * std::max(pressing, 0.0) * way;
   slipping.resistance = n.dot(held.resistance * n) * n * n.transpose();
   return slipping;
@@ -84,9 +87,9 @@ std::span<const ContactHold::Held> ContactHold::let_loose(ContactMemory& memory,
         held.force + held.resistance * (held.velocity - velocities.col(held.vertex)) / h;
     const bool is_freed = is_pulled(held, force);
     if (!is_freed && !is_torn_loose(held, force)) continue;
-    if (!is_freed) memory.let_slip(held.vertex);
+    is_freed ? memory.let_leave(held.vertex) : memory.let_slip(held.vertex);
     Held lost = held;
-    held = is_freed ? freed(held) : slipping(held, force);
+    held = is_freed ? freed(held, force) : slipping(held, force);
     lost.resistance -= held.resistance;
     lost.force -= held.force;
     lost_.push_back(lost);

@@ -39,6 +39,7 @@ class ContactHold {
     bool may_be_freed;  // is held no longer where it would be pulled
     bool sticks;        // slips where it would be rubbed beyond friction
     double friction;    // coefficient
+    double owed;        // friction that is left to it should it leave [N]
   };
 
   /// Takes them from the matrix of a substep without holds; mass_unit turns its entries into kg.
@@ -70,7 +71,7 @@ class ContactHold {
 
  private:
   bool is_pulled(const Held& held, const Vec3& force) const;
-  Held freed(const Held& held) const;
+  static Held freed(const Held& held, const Vec3& force);
   bool is_torn_loose(const Held& held, const Vec3& force) const;
   static Held slipping(const Held& held, const Vec3& force);
 
