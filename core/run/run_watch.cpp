@@ -1,13 +1,12 @@
 #include "core/run/run_watch.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
-#include "core/base/formatted.h"
-#include "core/dynamics/stepper_table.h"
+#include "core/dynamics/stepper_type.h"
 #include "core/model/elasticity.h"
+#include "core/run/run_advice.h"
 
 namespace pleat {
 namespace {
@@ -183,120 +182,7 @@ double driven_speed(const Simulation& simulation) {
   return speed;
 }
 
-/// Power of 2, from 4 on, that brings a stretch to its bound where it falls with the square of the
-/// step or the substeps.
-int times_for(const RunWarning& warning) {
-  constexpr int kMost = 64;
-  int times = 4;
-  while (times < kMost && times * times * warning.bound < warning.value) times *= 2;
-  return times;
-}
-
-/// A factor where cg gives up; a stepper that solves for equilibrium where rounds are too few for
-/// it; else four times as many of what the stepper takes more of, or a step of a quarter; for soft
-/// cloth as many times as it takes.
-std::vector<SettingHint> hints_for(const RunWarning& warning, const Scene& scene) {
-  const RunWarning::Kind kind = warning.kind;
-  const MethodOptions& method = scene.method;
-  const int times = kind == RunWarning::Kind::soft ? times_for(warning) : 4;
-  std::vector<SettingHint> hints;
-  if (kind == RunWarning::Kind::unbalanced && method.stepper->reads("iterations"))
-    return {{"/method/stepper", steppers::kImplicitEuler.name}};
-  const bool is_unsolved =
-      kind == RunWarning::Kind::unsolved || kind == RunWarning::Kind::not_converged;
-  if (kind == RunWarning::Kind::given_up) return {{"/method/solver", name(SolverKind::supernodal)}};
-  if (is_unsolved && method.stepper->reads("solver") && method.solver == SolverKind::cg)
-    hints.push_back({"/method/solver", name(SolverKind::supernodal)});
-  if (method.stepper->reads("iterations") && method.iterations < 10)
-    hints.push_back({"/method/iterations", times * method.iterations});
-  if (method.stepper->reads("substeps") && method.substeps != kStableSubsteps)
-    hints.push_back({"/method/substeps", times * method.substeps});
-  if (hints.empty()) hints.push_back({"/method/step_s", method.step / times});
-  return hints;
-}
-
-constexpr std::array<Word<RunWarning::Kind>, 7> kKinds = {
-    {{"stretch", RunWarning::Kind::stretch},
-     {"speed", RunWarning::Kind::speed},
-     {"unsolved", RunWarning::Kind::unsolved},
-     {"not_converged", RunWarning::Kind::not_converged},
-     {"given_up", RunWarning::Kind::given_up},
-     {"unbalanced", RunWarning::Kind::unbalanced},
-     {"soft", RunWarning::Kind::soft}}};
-
 }  // namespace
-
-std::string sentence(const RunWarning& warning) {
-  const std::string since = "from " + three_digits(warning.time) + " s";
-  const std::string place = since + " at vertex " + std::to_string(warning.vertex.value);
-  const std::string left = three_digits(100 * warning.value) + " % of their equations unsolved";
-  switch (warning.kind) {
-    case RunWarning::Kind::stretch:
-      return place + " on, the cloth stretched by up to " + three_digits(100 * warning.value) +
-             " %; its load explains " + three_digits(100 * warning.bound) + " %";
-    case RunWarning::Kind::soft:
-      return place + " on, the cloth stretched like a softer fabric, by up to " +
-             three_digits(100 * warning.value) + " %; its own explains " +
-             three_digits(100 * warning.bound) + " %";
-    case RunWarning::Kind::speed:
-      return place + " on, the cloth was as fast as " + three_digits(warning.value) +
-             " m/s; falling and pulling explain " + three_digits(warning.bound) + " m/s";
-    case RunWarning::Kind::unsolved:
-      return since + " on, steps left " + left;
-    case RunWarning::Kind::not_converged:
-      return since + " on, steps did not converge and left " + left;
-    case RunWarning::Kind::given_up:
-      return since + " on, the solver gave up in some steps, and a factor solved them in its place";
-    case RunWarning::Kind::unbalanced:
-      return since + " on, cloth at rest was held up by too few rounds, not by the cloth: " +
-             three_digits(100 * warning.value) + " % of its weight was unbalanced";
-  }
-  return "";
-}
-
-std::string advice(const RunWarning& warning) {
-  std::string text = "try";
-  for (const SettingHint& hint : warning.hints)
-    text +=
-        (&hint == warning.hints.data() ? " " : " or ") + hint.pointer + " = " + hint.value.dump();
-  return text;
-}
-
-Json json_warning(const RunWarning& warning) {
-  Json hints = Json::object();
-  for (const SettingHint& hint : warning.hints) hints[hint.pointer] = hint.value;
-  return {{"kind", word_for(kKinds, warning.kind)},
-          {"time_s", warning.time},
-          {"vertex", warning.vertex.value},
-          {"value", warning.value},
-          {"bound", warning.bound},
-          {"is_nonsense", warning.is_nonsense()},
-          {"hints", hints},
-          {"sentence", sentence(warning)}};
-}
-
-Json json_warnings(std::span<const RunWarning> warnings) {
-  Json json = Json::array();
-  for (const RunWarning& warning : warnings) json.push_back(json_warning(warning));
-  return json;
-}
-
-std::vector<RunWarning> read_warnings(const JsonReader& reader) {
-  constexpr double kBeyond = std::numeric_limits<double>::infinity();
-  std::vector<RunWarning> warnings;
-  for (const JsonReader& element : reader.elements()) {
-    RunWarning warning{element.at("kind").word(kKinds),
-                       element.at("time_s").number(kNotNegative),
-                       VertexId(static_cast<int>(element.at("vertex").integer(0, kMaxVertices))),
-                       element.at("value").number_or(kBeyond),
-                       element.at("bound").number_or(kBeyond),
-                       {}};
-    for (const auto& [pointer, value] : element.at("hints").members())
-      warning.hints.push_back({pointer, value.json()});
-    warnings.push_back(std::move(warning));
-  }
-  return warnings;
-}
 
 RunWatch::RunWatch(const Simulation& simulation) : rest_(simulation) {
   const ClothModel& model = simulation.model();
@@ -310,9 +196,9 @@ RunWatch::RunWatch(const Simulation& simulation) : rest_(simulation) {
   // Cloth that starts as the wreck of another run does not explain more wreck.
   start_stretch_ = stretch(simulation.gauge(), state.positions).largest;
   if (is_surface) start_stretch_ = std::min(start_stretch_, kMostStretch);
-  constexpr double kUnknown = std::numeric_limits<double>::infinity();
-  soft_stretch_ = has_known_load(simulation) && stiffness_ > 0 ? kLeastSoftness : kUnknown;
-  start_slack_ = soft_stretch_ < kUnknown ? slack(simulation) : 0;
+  has_known_load_ = has_known_load(simulation) && stiffness_ > 0;
+  soft_stretch_ = has_known_load_ ? kLeastSoftness : std::numeric_limits<double>::infinity();
+  start_slack_ = has_known_load_ ? slack(simulation) : 0;
   room_for_swing_ = is_hung_evenly(simulation) ? kRoomForEvenSwing : kRoomForSwing;
   start_height_ = greatest_height(up_of(model), state.positions);
   const double mass = model.masses.sum();
@@ -382,7 +268,9 @@ void RunWatch::check_stretch(const Simulation& simulation) {
   }
   const auto tell = [&](RunWarning::Kind kind, const Worst& of, double bound) {
     if (of.strain <= bound) return;
-    warn(simulation, {kind, simulation.time(), of.vertex, of.strain, bound, {}});
+    const double fabric = has_known_load_ ? std::min(bound, explained_softness(simulation)) : bound;
+    warn(simulation, {kind, simulation.time(), of.vertex, of.strain, bound, {}},
+         of.strain / fabric);
   };
   if (worst.strain > most)
     tell(RunWarning::Kind::stretch, worst, most + stretch_between_pins(simulation));
@@ -417,7 +305,7 @@ void RunWatch::check_report(const Simulation& simulation, const SolveReport& ste
   n_unsolved_ = is_unsolved ? n_unsolved_ + 1 : 0;
   if (n_unsolved_ == 1) unsolved_since_ = simulation.time();
   const auto told = [&](RunWarning::Kind kind, double since, double bound) {
-    warn(simulation, {kind, since, VertexId(0), step.relative_residual, bound, {}});
+    warn(simulation, {kind, since, VertexId(0), step.relative_residual, bound, {}}, 1);
   };
   if (n_unsolved_ >= kUnsolvedLooks)
     told(RunWarning::Kind::unsolved, unsolved_since_, kUnsolved);
@@ -427,17 +315,22 @@ void RunWatch::check_report(const Simulation& simulation, const SolveReport& ste
     told(RunWarning::Kind::given_up, simulation.time(), 0);
 }
 
-/// Keeps the first time and the worst value.
 void RunWatch::warn(const Simulation& simulation, RunWarning warning) {
+  const double excess = warning.value / warning.bound;
+  warn(simulation, std::move(warning), excess);
+}
+
+/// Keeps the first time and the worst value, and advises by that.
+void RunWatch::warn(const Simulation& simulation, RunWarning warning, double excess) {
   for (RunWarning& known : warnings_) {
     if (known.kind != warning.kind) continue;
-    if (warning.value > known.value) {
-      known.value = warning.value;
-      known.vertex = warning.vertex;
-    }
+    if (warning.value <= known.value) return;
+    known.value = warning.value;
+    known.vertex = warning.vertex;
+    known.hints = hints_for(known.kind, excess, simulation.scene());
     return;
   }
-  warning.hints = hints_for(warning, simulation.scene());
+  warning.hints = hints_for(warning.kind, excess, simulation.scene());
   warnings_.push_back(std::move(warning));
   std::stable_partition(warnings_.begin(), warnings_.end(),
                         [](const RunWarning& known) { return known.is_nonsense(); });

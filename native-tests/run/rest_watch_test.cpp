@@ -149,11 +149,10 @@ TEST_CASE("rest_watch: what too few rounds hold up is told, and the advice helps
   const WatchedRun held(scene);
   CAPTURE(held.share());
   REQUIRE(held.is_told());
-  const RunWarning& warning = held.watch.warnings().back();
+  const SettingHint& hint = held.watch.warnings().back().hints.front();
   Json json = parse_json(write_scene(scene));
-  std::vector<SceneOverride> overrides;
-  for (const SettingHint& hint : warning.hints) overrides.push_back({hint.pointer, hint.value});
-  override_scene(json, overrides);
+  const std::array<SceneOverride, 1> change = {{{hint.pointer, hint.value}}};
+  override_scene(json, change);
   const WatchedRun advised(read_scene(JsonReader(json), fabric_library()));
   CHECK(advised.share() < 0.01);
   CHECK_FALSE(advised.is_told());

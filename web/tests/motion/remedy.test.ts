@@ -13,7 +13,7 @@ import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { warningSentence } from '../../src/shared/panels/warning-words';
 import { loadFirst } from '../support/built-module';
 
-const warning = (hints: Record<string, number>): RunWarning => ({
+const warning = (hints: Record<string, unknown>): RunWarning => ({
   kind: 'stretch',
   time_s: 0.4,
   vertex: 12,
@@ -52,12 +52,19 @@ describe('the remedy for nonsense', () => {
     });
   });
 
-  it('is substeps before iterations, and neither where it is at its most', () => {
-    const both = warning({ '/method/iterations': 4, '/method/substeps': 4 });
+  it('is the first hint, and none that is at its most', () => {
+    const both = warning({ '/method/substeps': 4, '/method/iterations': 4 });
     expect(remedyForWarning(both, exploding).remedy.setting.substeps).toBe(4);
     const most = { ...exploding, substeps: MOST_SUBSTEPS };
-    const beyond = warning({ '/method/iterations': 4, '/method/substeps': 4 * MOST_SUBSTEPS });
+    const beyond = warning({ '/method/substeps': 4 * MOST_SUBSTEPS, '/method/iterations': 4 });
     expect(remedyForWarning(beyond, most).remedy.setting).toEqual({ ...most, iterations: 4 });
+  });
+
+  it('is another method with its own counts', () => {
+    const method = { stepper: 'implicit', step_s: 1 / 60, substeps: 4 };
+    const { title, setting } = remedyForWarning(warning({ '/method': method }), exploding).remedy;
+    expect(title).toBe('Start again with Implicit in 4 substeps');
+    expect(setting).toMatchObject({ stepper: 'implicit', substeps: 4, iterations: 1 });
   });
 
   it('says that a run has exploded only of nonsense', () => {
@@ -83,10 +90,12 @@ describe('the remedy for nonsense', () => {
 });
 
 describe('the warnings of a run', () => {
-  it('tell of an explosion', async () => {
-    const { warnings } = await numbersOf(exploding);
-    expect(warnings.map(({ kind }) => kind)).toContain('stretch');
-    expect(warnings[0]?.hints['/method/substeps']).toBe(4);
+  it('tell of an explosion, and what they advise ends it', async () => {
+    const [first] = (await numbersOf(exploding)).warnings;
+    expect(first?.kind).toBe('stretch');
+    if (!first) return;
+    const { setting } = remedyForWarning(first, exploding).remedy;
+    expect((await numbersOf(setting)).warnings).toEqual([]);
   });
 
   it('are none for the scene as it is shipped', async () => {

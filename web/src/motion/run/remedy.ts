@@ -55,29 +55,49 @@ export function remedyFor(failure: Failure, setting: Setting): Help | null {
   };
 }
 
-/** How a value that may help is set, why, and the words for it; what helps most is first. */
-const HINTS: Record<
-  string,
-  (value: number) => { why: string; title: string; change: Partial<Setting> }
-> = {
-  '/method/substeps': (value) => ({
-    why: 'Its steps are too long for so stiff a cloth on so fine a mesh.',
-    title: `Start again with ${Math.min(value, MOST_SUBSTEPS)} substeps`,
-    change: { substeps: Math.min(value, MOST_SUBSTEPS) },
-  }),
-  '/method/iterations': (value) => ({
-    why: 'Too few iterations solve each of its steps.',
-    title: `Start again with ${Math.min(value, MOST_ITERATIONS)} iterations`,
-    change: { iterations: Math.min(value, MOST_ITERATIONS) },
-  }),
+interface Change {
+  why: string;
+  title: string;
+  change: Partial<Setting>;
+}
+
+/** How a value that may help is set, why, and the words for it. */
+const HINTS: Record<string, (value: unknown, setting: Setting) => Change> = {
+  '/method/substeps': (value) => {
+    const substeps = Math.min(Number(value), MOST_SUBSTEPS);
+    return {
+      why: 'Its steps are too long for so stiff a cloth on so fine a mesh.',
+      title: `Start again with ${substeps} substeps`,
+      change: { substeps },
+    };
+  },
+  '/method/iterations': (value) => {
+    const iterations = Math.min(Number(value), MOST_ITERATIONS);
+    return {
+      why: 'Too few iterations solve each of its steps.',
+      title: `Start again with ${iterations} iterations`,
+      change: { iterations },
+    };
+  },
+  '/method': (value, setting) => {
+    const { stepper, step_s, substeps } = value as {
+      stepper: string;
+      step_s: number;
+      substeps: number;
+    };
+    return {
+      why: 'It carries a pull too slowly over so fine a mesh.',
+      title: `Start again with ${stepperRow(stepper).title} in ${substeps} substeps`,
+      change: { ...withStepper(setting, stepper), stepS: step_s, substeps },
+    };
+  },
 };
 
 /** The sentence for a run that shows what its scene cannot explain, and what may help: from the start, not from the wreck. */
 export function remedyForWarning(warning: RunWarning, setting: Setting): Help {
-  const known = Object.entries(HINTS).flatMap(([pointer, hint]) => {
-    const value = warning.hints[pointer];
-    return value === undefined ? [] : hint(Number(value));
-  });
+  const known = Object.entries(warning.hints).flatMap(
+    ([pointer, value]) => HINTS[pointer]?.(value, setting) ?? [],
+  );
   const helps = known.find(({ change }) => !isSame(change, setting));
   const sentence = warningSentence(warning);
   if (!helps)
@@ -97,8 +117,10 @@ export function remedyForWarning(warning: RunWarning, setting: Setting): Help {
 }
 
 /** True where a change is none: what may help is at its most already. */
-function isSame(change: Partial<Setting>, { substeps, iterations }: Setting): boolean {
+function isSame(change: Partial<Setting>, { stepper, substeps, iterations }: Setting): boolean {
   return (
-    (change.substeps ?? substeps) === substeps && (change.iterations ?? iterations) === iterations
+    (change.stepper ?? stepper) === stepper &&
+    (change.substeps ?? substeps) === substeps &&
+    (change.iterations ?? iterations) === iterations
   );
 }

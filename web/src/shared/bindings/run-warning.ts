@@ -11,6 +11,6 @@ export interface RunWarning {
   sentence: string;
   /** Else the cloth moves as cloth may: a step did not converge, say. */
   is_nonsense: boolean;
-  /** Values that may help, by their JSON pointers into the scene. */
-  hints: Record<string, number | string>;
+  /** Values that may help, by their JSON pointers into the scene: each alone, the best one first. */
+  hints: Record<string, unknown>;
 }

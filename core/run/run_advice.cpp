@@ -1,0 +1,94 @@
+#include "core/run/run_advice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/dynamics/stepper_table.h"
+#include "core/linalg/make_linear_solver.h"
+
+namespace pleat {
+namespace {
+
+using Kind = RunWarning::Kind;
+
+constexpr double kFrame = 1.0 / 60;  // [s]: longer substeps fold cloth as no cloth does
+
+/// Stepper that comes to rest on any mesh, in the same step or a frame's.
+MethodOptions calm_method(const MethodOptions& method) {
+  MethodOptions calm = steppers::kImplicitEuler.usual_method();
+  calm.step = std::min(method.step, kFrame);
+  calm.substeps = 4;
+  return calm;
+}
+
+SettingHint calm_hint(const MethodOptions& method) {
+  const MethodOptions calm = calm_method(method);
+  return {"/method",
+          {{"stepper", calm.stepper->name}, {"step_s", calm.step}, {"substeps", calm.substeps}}};
+}
+
+/// Cost of a second, in the units of a stepper's substep_cost.
+double cost_of(const MethodOptions& method) {
+  return method.substeps * method.stepper->substep_cost(method) / method.step;
+}
+
+/// Power of 2, from 4 on, by which substeps are to grow. Errors fall with their square, or where
+/// constraints are swept over, with their power of 3/2; a quarter of what is bearable is aimed at.
+int times_for(double excess, bool is_swept) {
+  constexpr int kLeast = 4;
+  constexpr int kMost = 64;
+  const double wanted = std::pow(4 * excess, is_swept ? 2.0 / 3 : 1.0 / 2);
+  int times = kLeast;
+  while (times < kMost && times < wanted) times *= 2;
+  return times;
+}
+
+/// Changes of settings beside the counts that are known to leave errors or to feed them.
+std::vector<SettingHint> hints_of_settings(Kind kind, const MethodOptions& method) {
+  const StepperType& type = *method.stepper;
+  const bool is_unsolved = kind == Kind::unsolved || kind == Kind::not_converged;
+  std::vector<SettingHint> hints;
+  if (is_unsolved && type.reads("solver") && method.solver == SolverKind::cg)
+    hints.push_back({"/method/solver", name(SolverKind::supernodal)});
+  if (type.reads("tolerance") && !is_direct(method.solver) && method.tolerance > type.tolerance)
+    hints.push_back({"/method/tolerance", type.tolerance});
+  if (type.reads("rule") && method.rule == NewtonRule::midpoint)
+    hints.push_back({"/method/rule", "backward_euler"});
+  return hints;
+}
+
+/// More of what the stepper takes more of, and where that is of sweeps or rounds, a stepper that
+/// solves for equilibrium; the cheaper one first.
+std::vector<SettingHint> hints_of_counts(double excess, const MethodOptions& method) {
+  const StepperType& type = *method.stepper;
+  const bool takes_rounds = type.reads("iterations");
+  const int times = times_for(excess, takes_rounds);
+  if (method.substeps == kStableSubsteps) return {{"/method/step_s", method.step / times}};
+  MethodOptions more = method;
+  SettingHint hint;
+  if (takes_rounds && type.solves_whole_substeps) {
+    more.iterations = std::max(type.start.iterations, 4 * method.iterations);
+    hint = {"/method/iterations", more.iterations};
+  } else {
+    const double frames = type.solves_whole_substeps ? method.step / kFrame : 0;
+    more.substeps = std::max(
+        {type.start.substeps, times * method.substeps, static_cast<int>(std::ceil(frames))});
+    hint = {"/method/substeps", more.substeps};
+  }
+  if (!takes_rounds) return {hint};
+  if (cost_of(calm_method(method)) < cost_of(more)) return {calm_hint(method), hint};
+  return {hint, calm_hint(method)};
+}
+
+}  // namespace
+
+std::vector<SettingHint> hints_for(Kind kind, double excess, const Scene& scene) {
+  const MethodOptions& method = scene.method;
+  if (kind == Kind::given_up) return {{"/method/solver", name(SolverKind::supernodal)}};
+  if (kind == Kind::unbalanced && method.stepper->reads("iterations")) return {calm_hint(method)};
+  std::vector<SettingHint> hints = hints_of_settings(kind, method);
+  for (SettingHint& hint : hints_of_counts(excess, method)) hints.push_back(std::move(hint));
+  return hints;
+}
+
+}  // namespace pleat
