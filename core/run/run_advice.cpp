@@ -37,9 +37,12 @@ double cost_of(const MethodOptions& method) {
 int times_for(double excess, bool is_swept) {
   constexpr int kLeast = 4;
   constexpr int kMost = 64;
-  const double wanted = std::pow(4 * excess, is_swept ? 2.0 / 3 : 1.0 / 2);
+  const double over = 4 * excess;
+  const auto suffices = [&](double times) {
+    return is_swept ? times * times * times >= over * over : times * times >= over;
+  };
   int times = kLeast;
-  while (times < kMost && times < wanted) times *= 2;
+  while (times < kMost && !suffices(times)) times *= 2;
   return times;
 }
 

@@ -21,29 +21,42 @@ constexpr std::array<Word<RunWarning::Kind>, 7> kKinds = {
 }  // namespace
 
 std::string sentence(const RunWarning& warning) {
-  const std::string since = "from " + three_digits(warning.time) + " s";
-  const std::string place = since + " at vertex " + std::to_string(warning.vertex.value);
-  const std::string left = three_digits(100 * warning.value) + " % of their equations unsolved";
+  const double time = warning.time;
+  const int vertex = warning.vertex.value;
+  const double share = 100 * warning.value;  // [%], as is the next
+  const double explained = 100 * warning.bound;
   switch (warning.kind) {
     case RunWarning::Kind::stretch:
-      return place + " on, the cloth stretched by up to " + three_digits(100 * warning.value) +
-             " %; its load explains " + three_digits(100 * warning.bound) + " %";
+      return formatted(
+          "from %.3g s at vertex %d on, the cloth stretched by up to %.3g %%; its load explains "
+          "%.3g %%",
+          time, vertex, share, explained);
     case RunWarning::Kind::soft:
-      return place + " on, the cloth stretched like a softer fabric, by up to " +
-             three_digits(100 * warning.value) + " %; its own explains " +
-             three_digits(100 * warning.bound) + " %";
+      return formatted(
+          "from %.3g s at vertex %d on, the cloth stretched like a softer fabric, by up to %.3g "
+          "%%; its own explains %.3g %%",
+          time, vertex, share, explained);
     case RunWarning::Kind::speed:
-      return place + " on, the cloth was as fast as " + three_digits(warning.value) +
-             " m/s; falling and pulling explain " + three_digits(warning.bound) + " m/s";
+      return formatted(
+          "from %.3g s at vertex %d on, the cloth was as fast as %.3g m/s; falling and pulling "
+          "explain %.3g m/s",
+          time, vertex, warning.value, warning.bound);
     case RunWarning::Kind::unsolved:
-      return since + " on, steps left " + left;
+      return formatted("from %.3g s on, steps left %.3g %% of their equations unsolved", time,
+                       share);
     case RunWarning::Kind::not_converged:
-      return since + " on, steps did not converge and left " + left;
+      return formatted(
+          "from %.3g s on, steps did not converge and left %.3g %% of their equations unsolved",
+          time, share);
     case RunWarning::Kind::given_up:
-      return since + " on, the solver gave up in some steps, and a factor solved them in its place";
+      return formatted(
+          "from %.3g s on, the solver gave up in some steps, and a factor solved them in its place",
+          time);
     case RunWarning::Kind::unbalanced:
-      return since + " on, cloth at rest was held up by too few rounds, not by the cloth: " +
-             three_digits(100 * warning.value) + " % of its weight was unbalanced";
+      return formatted(
+          "from %.3g s on, cloth at rest was held up by too few rounds, not by the cloth: %.3g %% "
+          "of its weight was unbalanced",
+          time, share);
   }
   return "";
 }
