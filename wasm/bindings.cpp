@@ -221,6 +221,8 @@ class Simulation {
       envelope.set("rms_stretch", stretch.rms);
       envelope.set("residual", run_.report().relative_residual);
       envelope.set("iterations", run_.report().iterations);
+      const bool is_held = running().is_grabbed();
+      envelope.set("asked_stretch", is_held ? val(running().asked_stretch()) : val::null());
       run_.put_costs(envelope);
       run_.put_warnings(envelope);
       envelope.set("reference", matches_ ? compare() : val::null());

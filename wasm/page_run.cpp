@@ -30,9 +30,17 @@ void PageRun::start_from(const Positions& places) {
 }
 
 void PageRun::release_grab() {
+  constexpr double kUntilCalm = 1;  // [s]
   if (!is_loaded() || !running().is_grabbed()) return;
   running().release_grab();
-  watch_.emplace(running());
+  watch_.reset();
+  calm_ = running().time() + kUntilCalm;
+}
+
+void PageRun::look() {
+  if (running().is_grabbed()) return watch_.reset();
+  if (watch_) return watch_->check(running(), report_);
+  if (running().time() >= calm_) watch_.emplace(running());
 }
 
 Simulation& PageRun::running() const {
@@ -45,7 +53,7 @@ int PageRun::step(int n, const std::function<void()>& show) {
     running();
     for (int i = 0; i < n && !report_.ends_run(); ++i) {
       report_ = steps_->step();
-      if (!report_.ends_run() && !running().is_grabbed()) watch_->check(running(), report_);
+      if (!report_.ends_run()) look();
     }
     show();
   } catch (const std::exception& error) {
@@ -62,7 +70,8 @@ void PageRun::put_status(val& envelope) const {
 
 void PageRun::put_warnings(val& envelope) const {
   running();
-  envelope.set("warnings", json_value(json_warnings(watch_->warnings()).dump()));
+  const Json warnings = watch_ ? json_warnings(watch_->warnings()) : Json::array();
+  envelope.set("warnings", json_value(warnings.dump()));
 }
 
 void PageRun::put_costs(val& envelope) const {

@@ -22,8 +22,8 @@ class PageRun {
   /// Begins the run anew from these places (Simulation::start_from).
   void start_from(const Positions& places);
 
-  /// Lets go of the grabbed vertex. What a hand does is no fault of the run: it is watched from now
-  /// on anew.
+  /// Lets go of the grabbed vertex. What a hand does is no fault of the run: it is watched anew
+  /// when the cloth has calmed down, after a second.
   void release_grab();
 
   bool is_loaded() const { return simulation_ != nullptr; }
@@ -45,10 +45,12 @@ class PageRun {
 
  private:
   void begin();
+  void look();
 
   std::unique_ptr<Simulation> simulation_;
   std::optional<TimedRun> steps_;
-  std::optional<RunWatch> watch_;
+  std::optional<RunWatch> watch_;  // none while a hand holds the cloth, and until it is calm
+  double calm_ = 0;                // when it will be [s]
   SolveReport report_;
 };
 

@@ -7,7 +7,7 @@ WHOLE   the module as it was linked, with names of functions
 FIRST   a module of the same objects linked with the bindings of a first visit alone, with names
 
 A function of WHOLE whose name FIRST lacks goes to the rest, but for what initialises the module. Where WHOLE has
-several of one name, all stay.
+several of one name, all stay. What CHOLMOD does with complex matrices goes there too: none is one.
 """
 import re
 import subprocess
@@ -19,6 +19,7 @@ FEATURES = ["--enable-simd", "--enable-exception-handling", "--enable-bulk-memor
             "--enable-mutable-globals", "--enable-nontrapping-float-to-int"]
 # As Emscripten calls it for its modules; then again, which takes another hundredth.
 SMALL = ["-Oz", "--converge", "--low-memory-unused", "--zero-filled-memory"]
+COMPLEX = re.compile(r"[cz]_(change|cholmod|ldl|ll|simplicial)_")
 STRIPPED = ["--post-emscripten", "--strip-debug", "--strip-producers"]
 
 
@@ -47,7 +48,8 @@ def main():
     whole, first, output_first, output_rest = sys.argv[1:]
     graph = calls(whole)
     needed = reached(graph, [*calls(first), "__wasm_call_ctors"])
-    rest = [name for name in graph if name not in needed and re.sub(r"_\d+$", "", name) not in needed]
+    rest = [name for name in graph
+            if COMPLEX.match(name) or (name not in needed and re.sub(r"_\d+$", "", name) not in needed)]
     with tempfile.NamedTemporaryFile(mode="w", suffix=".functions") as names:
         names.write("\n".join(rest))
         names.flush()

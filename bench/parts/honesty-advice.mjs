@@ -79,21 +79,24 @@ const listed = () => [
   ...['pbd', 'hpbd'].map((stepper) => resting(stepper, false)),
 ];
 
-/** Warnings of a run, but for what was solved all the same. */
-function warningsOf(scene) {
+/** Status and warnings of a run, but for what was solved all the same. */
+function ended(scene) {
   const words = ['run', { ...scene, record: { format: 'none' } }, '--json'];
-  const { warnings } = JSON.parse(ran(words, 'ignore').stdout);
-  return warnings.filter(({ kind }) => kind !== 'given_up');
+  const { status, warnings } = JSON.parse(ran(words, 'ignore').stdout);
+  return { status, warnings: warnings.filter(({ kind }) => kind !== 'given_up') };
 }
 
 function rowOf({ name, scene }) {
   tell(name);
-  const [told] = warningsOf(scene);
-  if (!told) return { case: name, told: null, advice: null, helps: false, left: [] };
+  const { status, warnings } = ended(scene);
+  const [told] = warnings;
+  if (!told) return { case: name, status, told: null, advice: null, helps: false, left: [] };
   const [[pointer, value]] = Object.entries(told.hints);
-  const left = warningsOf(changed(scene, { [pointer]: value })).map(({ kind }) => kind);
+  const again = ended(changed(scene, { [pointer]: value }));
+  const left = again.warnings.map(({ kind }) => kind);
   return {
     case: name,
+    status: again.status,
     told: `${told.kind} ${short(told.value)}`,
     advice: `${pointer} ${JSON.stringify(value)}`,
     helps: !left.includes(told.kind),

@@ -201,22 +201,47 @@ void Simulation::grab(VertexId vertex) {
   release_grab();
   was_led_astray_ = true;
   const std::vector<bool> pinned = model_.pinned();
-  grab_ = Grab{vertex, model_.pins.size(), state_.positions.col(vertex)};
   const double radius =
       scene_.cloth->is_surface() ? kHandRadius * scene_.cloth->rest_diagonal() : 0;
   const Positions& rest = rest_positions();
   std::vector<bool> in_hand(pinned.size(), false);
   for (int i = 0; i < model_.n_vertices(); ++i)
-    in_hand[static_cast<std::size_t>(i)] = (rest.col(i) - rest.col(vertex)).norm() <= radius;
+    in_hand[static_cast<std::size_t>(i)] =
+        !pinned[static_cast<std::size_t>(i)] && (rest.col(i) - rest.col(vertex)).norm() <= radius;
   for (const HangingVertex& h : model_.hanging)
     for (const VertexId parent : h.parents)
-      if (h.vertex == vertex) in_hand[parent] = true;
+      if (h.vertex == vertex) in_hand[parent] = !pinned[parent];
+  const Vec3 begin = state_.positions.col(vertex);
+  grab_ = Grab{vertex, model_.pins.size(), begin, reach_of(vertex, radius, in_hand)};
   for (int i = 0; i < model_.n_vertices(); ++i) {
-    const auto place = static_cast<std::size_t>(i);
-    if (in_hand[place] && !pinned[place] && !model_.hangs(VertexId(i)))
+    if (in_hand[static_cast<std::size_t>(i)] && !model_.hangs(VertexId(i)))
       model_.pins.push_back({VertexId(i), state_.positions.col(i), {}});
   }
   stepper_->refresh();
+}
+
+// On a flat sheet the way between two vertices is their distance; on other surfaces it is along
+// edges. A hand as wide as what it holds bears all of its pull on that width.
+HandReach Simulation::reach_of(VertexId vertex, double radius,
+                               const std::vector<bool>& in_hand) const {
+  if (!scene_.cloth->is_surface() || scene_.model.tearing) return {{}, {}, {}, 0, 0};
+  const Positions& rest = rest_positions();
+  const Eigen::VectorXd ways =
+      mesh() ? Eigen::VectorXd((rest.colwise() - rest.col(vertex)).colwise().norm())
+             : ways_along(gauge_, vertex, model_.n_vertices());
+  std::vector<HandReach::Thread> threads;
+  for (const GaugeEdge& edge : gauge_) {
+    if (in_hand[edge.a] == in_hand[edge.b]) continue;
+    const bool holds_a = in_hand[edge.a];
+    threads.push_back({holds_a ? edge.a : edge.b, holds_a ? edge.b : edge.a, edge.rest_length});
+  }
+  const double per_width = std::min(scene_.fabric.stretch_warp, scene_.fabric.stretch_weft);
+  const double stretch = std::min(kHandPull / (2 * radius * per_width), kHandStretch);
+  return {ways, model_.pins, std::move(threads), radius, stretch};
+}
+
+double Simulation::asked_stretch() const {
+  return grab_ ? grab_->reach.asked(grab_->target, time()) : 0;
 }
 
 void Simulation::move_grab(const Vec3& target) {
@@ -231,11 +256,12 @@ void Simulation::release_grab() {
   stepper_->refresh();
 }
 
-/// The hand's pins go to the target at constant speed during the coming step, so that substeps do
-/// not see a jump.
+/// The hand's pins go as far towards the target as it leads them, at constant speed during the
+/// coming step, so that substeps do not see a jump.
 void Simulation::place_grab_pins() {
   if (grab_->first_pin == model_.pins.size()) return;  // only pinned vertices in the hand
-  const Vec3 offset = grab_->target - state_.positions.col(grab_->vertex);
+  const double step = scene_.method.step;
+  const Vec3 offset = grab_->reach.move(state_, grab_->vertex, grab_->target, time() + step, step);
   for (std::size_t p = grab_->first_pin; p < model_.pins.size(); ++p) {
     Pin& pin = model_.pins[p];
     pin.place = state_.positions.col(pin.vertex);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/run/hand_reach.h"
 #include "core/run/moving_cloth.h"
 #include "core/run/scene_model.h"
 #include "core/run/transition.h"
@@ -48,11 +49,15 @@ class Simulation final : public MovingCloth {
 
   /// Holds every vertex within the hand's radius (kHandRadius of the rest diagonal; of
   /// particles, only the vertex itself) of `vertex` and moves them together; of one that hangs,
-  /// the parents. One hand at a time.
+  /// the parents. One hand at a time. It pulls cloth that does not tear no further than its force
+  /// stretches it (kHandPull), and no faster than kHandSpeed.
   void grab(VertexId vertex);
   bool is_grabbed() const { return grab_.has_value(); }
-  /// Sets the grabbed vertex's place at the end of the next step [m].
+  /// Sets where the hand wants the grabbed vertex at the end of the next step [m].
   void move_grab(const Vec3& target);
+  /// How many times as long as at rest the tautest thread would be, were the grabbed vertex where
+  /// the hand wants it; 0 where nothing else holds the cloth.
+  double asked_stretch() const;
   void release_grab();
 
   /// True when since the start a hand, other places to start from or another scene's cloth has led
@@ -99,7 +104,8 @@ class Simulation final : public MovingCloth {
   struct Grab {
     VertexId vertex;
     std::size_t first_pin;  // its pins are the last of model_.pins
-    Vec3 target;            // place of `vertex` at the end of the next step [m]
+    Vec3 target;            // where the hand wants `vertex` at the end of the next step [m]
+    HandReach reach;
   };
 
   void start();
@@ -107,6 +113,7 @@ class Simulation final : public MovingCloth {
   void tear();
   void make_whole();
   void place_grab_pins();
+  HandReach reach_of(VertexId vertex, double radius, const std::vector<bool>& in_hand) const;
   void end_transition();
 
   Scene scene_;

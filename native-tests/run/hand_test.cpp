@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/dynamics/stepper_table.h"
+#include "core/run/hand_reach.h"
 #include "core/run/simulation.h"
 #include "core/scene/cloth/particle_cloth.h"
 #include "native-tests/support/cloth.h"
@@ -121,6 +122,83 @@ TEST_CASE("simulation: after its end it says the same at every step and does not
   CHECK(second.message == first.message);
   CHECK(simulation.state().positions == state.positions);
   CHECK(simulation.n_steps() == 0);
+}
+
+// Fine cotton of half a metre on its upper edge, pulled at a lower corner from twice as far as it
+// reaches. Twice the bound leaves room for soft methods, and for threads that a corner gathers.
+TEST_CASE("hand: it gives way where the cloth is taut", "[run]") {
+  for (const MethodOptions& method : everyday_methods()) {
+    CAPTURE(method.stepper->name);
+    Simulation simulation(hanging_scene(method));
+    simulation.grab(kLowerCorner);
+    CHECK(simulation.asked_stretch() == Approx(1).epsilon(0.01));
+    const Vec3 begin = simulation.state().positions.col(kLowerCorner.value);
+    double most = 0;
+    for (int s = 1; s <= 120; ++s) {
+      simulation.move_grab(begin + std::min(s / 60.0, 1.0) * Vec3(0.5, -2, 0.5));
+      REQUIRE(simulation.step().ok());
+      most = std::max(most, stretch(simulation.gauge(), simulation.state().positions).largest);
+    }
+    CHECK(simulation.asked_stretch() > 2);
+    CHECK(most < 2 * kHandStretch);
+    const Vec3 end = simulation.state().positions.col(kLowerCorner.value);
+    CHECK((end - begin).norm() < 1);
+  }
+}
+
+// One vertex at the origin, held; another one beside it.
+struct HeldPair {
+  State state{Positions::Zero(3, 2), Positions::Zero(3, 2)};
+  Vec3 move(HandReach& reach, const Vec3& target, double h = 1) const {
+    return reach.move(state, VertexId(0), target, 0, h);
+  }
+};
+
+TEST_CASE("hand_reach: a hand is no faster than an arm", "[run]") {
+  HandReach free({}, {}, {}, 0, 0);
+  const HeldPair pair;
+  CHECK((pair.move(free, {0, 3, 4}, 0.1) - kHandSpeed * 0.1 * Vec3(0, 0.6, 0.8)).norm() < 1e-12);
+  CHECK(pair.move(free, {0, 0.1, 0}, 0.1) == Vec3(0, 0.1, 0));
+}
+
+// Two pins 1 m apart, ways of 0.7 m: the reach is where both balls meet.
+TEST_CASE("hand_reach: it ends where ways to pins are taut", "[run]") {
+  const std::vector<Pin> pins = {{VertexId(0), {0, 0, 0}, {}}, {VertexId(1), {1, 0, 0}, {}}};
+  const Eigen::Vector3d ways(0.7, 0.7, 0);
+  HandReach reach(ways, pins, {}, 0, 0);
+  const HeldPair pair;
+  const double height = std::sqrt(0.7 * 0.7 - 0.25);
+  const Vec3 place = pair.move(reach, {0.5, 3, 0});
+  CHECK((place - Vec3(0.5, height, 0)).norm() < 0.1);
+  CHECK(std::max(place.norm(), (place - Vec3(1, 0, 0)).norm()) < 0.7 + 1e-12);
+  CHECK((pair.move(reach, {5, 0, 0}) - Vec3(0.7, 0, 0)).norm() < 1e-12);
+  CHECK((pair.move(reach, {0.5, 0.1, 0}) - Vec3(0.5, 0.1, 0)).norm() < 1e-12);
+  CHECK(reach.asked({0.5, 3, 0}, 0) == Approx(std::sqrt(9.25) / 0.7));
+  HandReach softer(ways, pins, {}, 0.1, 0.05);
+  CHECK(pair.move(softer, {5, 0, 0}).x() == Approx(0.7 + 0.05 * 0.6));
+}
+
+TEST_CASE("hand_reach: no thread beside the hand is stretched beyond a tenth", "[run]") {
+  HandReach reach({}, {}, {{VertexId(0), VertexId(1), 0.2}}, 0, 0);
+  HeldPair pair;
+  pair.state.positions.col(1) = Vec3(0.2, 0, 0);
+  CHECK((pair.move(reach, {-1, 0, 0}) - Vec3(-0.02, 0, 0)).norm() < 1e-12);
+  pair.state.velocities.col(1) = Vec3(-0.1, 0, 0);
+  CHECK((pair.move(reach, {-1, 0, 0}) - Vec3(-0.12, 0, 0)).norm() < 1e-12);
+  pair.state.velocities.col(1) = Vec3(0.5, 0, 0);
+  CHECK(pair.move(reach, {0, 0, 0}).isZero(1e-12));
+}
+
+TEST_CASE("hand_reach: ways along edges are the shortest", "[run]") {
+  // A square with one diagonal, and an edge apart.
+  const std::vector<GaugeEdge> edges = {{VertexId(2), VertexId(3), 1},
+                                        {VertexId(1), VertexId(2), 1},
+                                        {VertexId(0), VertexId(1), 1},
+                                        {VertexId(0), VertexId(3), 3},
+                                        {VertexId(4), VertexId(5), 1}};
+  const Eigen::VectorXd ways = ways_along(edges, VertexId(0), 6);
+  CHECK(ways.head(4) == Eigen::Vector4d(0, 1, 2, 3));
+  CHECK(std::isinf(ways[4]));
 }
 
 }  // namespace pleat

@@ -172,7 +172,7 @@ TEST_CASE("simulation: a hand takes the grabbed vertex where it wants it and let
   simulation.grab(corner);
   const Vec3 target = simulation.state().positions.col(corner) + Vec3(-0.05, 0.02, -0.1);
   simulation.move_grab(target);
-  run(simulation, 1);
+  run(simulation, 30);
   CHECK((simulation.state().positions.col(corner) - target).norm() < 1e-9);
   simulation.release_grab();
   run(simulation, 10);

@@ -58,7 +58,7 @@ export async function checkKnit({ check }, visit) {
       await choice(page, 'Stepper').selectOption({ label: 'Explicit' });
       const form = page.locator('.knit');
       await eventually(async () => /in substeps of 9\d µs/.test(await form.textContent()), 'per m');
-      await choice(page, 'Damping is given in').selectOption({ label: 'N s/mm (as printed)' });
+      await choice(page, 'Unit of damping').selectOption({ label: 'N s/mm (as printed)' });
       await eventually(async () => /in substeps of 0\.13 µs/.test(await form.textContent()), 'mm');
       expectThat((await stateOf(page)).numbers.step === 0, 'it runs');
     }),

@@ -134,7 +134,7 @@ export async function checkRefinement(harness) {
 
   await check('refinement: the fine skirt walks as it is computed, by position-based steps', () =>
     visit('#view=refinement&edges=off&colour=material', async (page) => {
-      await choice(page, 'Steps').selectOption({ label: 'multigrid: computed as it walks' });
+      await choice(page, 'Steps').selectOption({ label: 'Live' });
       await until(page, (state) => state.panes.fine.source === 'computed', LOAD_MS);
       await isReady(page);
       const before = await picture(page);
@@ -236,7 +236,7 @@ export async function checkRefinement(harness) {
         const badges = await page.locator('.garment-panes').textContent();
         expectThat(/Even/.test(badges), `the panes say: ${badges}`);
         const text = await page.getByRole('region', { name: 'Numbers' }).textContent();
-        expectThat(/two fine runs/.test(text), 'nothing is said of chance');
+        expectThat(/two equally fine runs/.test(text), 'nothing is said of chance');
         const before = await picture(page);
         await button(page, 'Hem').click();
         await expectOtherPicture(page, before);

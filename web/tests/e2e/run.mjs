@@ -9,6 +9,7 @@ import {
   expectThat,
   isReady,
   largestMove,
+  momentUntil,
   positionsOf,
   stateOf,
   until,
@@ -106,6 +107,27 @@ await check('a drag pulls the cloth, starts it, and lets go', () =>
   }),
 );
 
+await check('a pull beyond what cloth bears is told in the moment, and is no explosion', () =>
+  visit('#scene=curtain', async (page) => {
+    const { x, y } = await placeOn(page, await page.evaluate(() => window.pleat.inviting()));
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x - 250, y - 250, { steps: 8 });
+    const { state, words } = await momentUntil(
+      page,
+      ({ held, numbers: now }) => held && now.asked_stretch > 1.1,
+      '.verdict',
+    );
+    const { numbers } = state;
+    expectThat(/^You pull it to [\d.]+ times its length/.test(words), words);
+    expectThat(numbers.largest_stretch < 0.35, `it is stretched by ${numbers.largest_stretch}`);
+    await page.mouse.up();
+    await until(page, (shown) => !shown.held && shown.numbers.time_s > numbers.time_s + 2.5);
+    const { problem } = await stateOf(page);
+    expectThat(problem === null, `it says: ${problem?.sentence}`);
+  }),
+);
+
 await check('a finger pulls the cloth, and its loss lets go', () =>
   visit(
     '#scene=curtain&level=1',
@@ -125,7 +147,7 @@ await check('a finger pulls the cloth, and its loss lets go', () =>
 );
 
 await check('a hand stops at the floor, in a scene that has none for the cloth', () =>
-  visit('#scene=swinging-sheet&level=0', async (page) => {
+  visit('#scene=tablecloth&level=0', async (page) => {
     const vertex = await page.evaluate(() => window.pleat.inviting());
     const { x, y } = await placeOn(page, vertex);
     const box = await canvasOf(page).boundingBox();
@@ -376,7 +398,7 @@ await check('a reference tells how far off the cloth is, in words and as a heat 
     await button(page, 'Pause').click();
     await choice(page, 'Fabric').selectOption({ index: 5 });
     await isReady(page);
-    expectThat(/No reference/.test(await verdict.textContent()), 'silk has a reference');
+    expectThat(/nobody has measured/.test(await verdict.textContent()), 'silk has a reference');
     const option = choice(page, 'Colour shows').locator('option', { hasText: 'Distance' });
     expectThat(await option.isDisabled(), 'distance can be chosen');
   }),

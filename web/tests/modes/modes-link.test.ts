@@ -14,11 +14,11 @@ function stateOf(hash: string) {
 }
 
 describe('link of modes', () => {
-  it('is of the bar between its two keys when it says nothing', () => {
+  it('is of a mode of the bar when it says nothing', () => {
     const { link, problems } = decodeModesLink('#view=modes');
     expect(problems).toEqual([]);
     expect(link).toEqual(usualLink('bar'));
-    expect(link.showing).toBe('keys');
+    expect(link.showing).toBe('modes');
   });
 
   it('comes back as it was written', () => {

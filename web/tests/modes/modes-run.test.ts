@@ -79,7 +79,7 @@ describe('run of modes', () => {
   });
 
   it('opens the bar half way between its keys, with a ghost that is elsewhere', async () => {
-    const { run, store, drawn } = await open('#view=modes&cells=2');
+    const { run, store, drawn } = await open('#view=modes&cells=2&show=keys');
     const { keys, completion, found, problem } = store.get();
     expect(problem).toBe(null);
     expect(keys.map(({ origin }) => origin.kind)).toEqual(['rest', 'bent']);
@@ -167,7 +167,7 @@ describe('run of modes', () => {
   });
 
   it('leads a pulled vertex to the hand, by modes or along the keys', async () => {
-    const { run, store } = await open('#view=modes&cells=2');
+    const { run, store } = await open('#view=modes&cells=2&show=keys');
     const pull = new Pull(store, run, () => false);
     const body = run.present;
     if (!body) throw new Error('no body');

@@ -18,6 +18,7 @@ const running: RunNumbers = {
   step: 60,
   largest_stretch: 0.003,
   rms_stretch: 0.001,
+  asked_stretch: null,
   residual: 0.0002,
   iterations: 9,
   parts_ms: {},
@@ -76,11 +77,11 @@ describe('error words', () => {
 
   it('name what is left of the equations and of the length where there is no reference', () => {
     expect(wordsOf({}).sentence).toBe(
-      'No reference for this scene. Its equations are solved to within 0.020 %; threads are stretched by 0.30 % at most.',
+      'How wrong this is, nobody has measured. The sums are right to 0.020 %; threads are stretched by 0.30 % at most.',
     );
-    expect(wordsOf({ residual: 0 }).sentence).toContain('solved exactly');
-    expect(wordsOf({ residual: 0 }, withStepper(own, 'rk4')).sentence).toContain('no equations');
-    expect(wordsOf({ step: 0 }).sentence).toBe('No reference for this scene.');
+    expect(wordsOf({ residual: 0 }).sentence).toContain('right exactly');
+    expect(wordsOf({ residual: 0 }, withStepper(own, 'rk4')).sentence).toContain('no sums');
+    expect(wordsOf({ step: 0 }).sentence).toBe('How wrong this is, nobody has measured.');
   });
 
   it('name what the sweep found for the very same setting', () => {

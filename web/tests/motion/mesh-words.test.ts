@@ -26,24 +26,22 @@ describe('what a mesh does wrong', () => {
 
   it('is the headline, as a bound where it is below what the reference tells', () => {
     expect(headline(rows, 'known')).toBe(
-      'One level finer: what the mesh does wrong falls from 4.0 mm at level 0 to below 1.6 mm at level 1.',
+      'One level finer: the error of the mesh falls from 4.0 mm at level 0 to below 1.6 mm at level 1.',
     );
-    expect(headline(rows.slice(0, 2), 'known')).toBe(
-      'What the mesh does wrong: 4.0 mm at level 0.',
-    );
+    expect(headline(rows.slice(0, 2), 'known')).toBe('Error of the mesh: 4.0 mm at level 0.');
     expect(headline([], 'known')).toBe('');
   });
 
   it('is told of every level in order, and not as a fall where it is none', () => {
     const more = [...rows, row(2, 5, 5e-3)];
     expect(headline(more, 'known')).toBe(
-      'Level by level: what the mesh does wrong goes from 4.0 mm at level 0 to below 1.6 mm at level 1, to 5.0 mm at level 2.',
+      'Level by level: the error of the mesh goes from 4.0 mm at level 0 to below 1.6 mm at level 1, to 5.0 mm at level 2.',
     );
     expect(headline([row(0, 1, null), row(1, 1, null)], 'known')).toMatch(/goes from below 1.6 mm/);
   });
 
   it('makes errors of levels comparable; else they are the methods’ own', () => {
-    expect(headline(rows, 'unshipped')).toMatch(/different levels do not compare/);
+    expect(headline(rows, 'unshipped')).toMatch(/within one level only/);
     expect(errorName('known')).toBe('Error');
     expect(errorName('unfetched')).toBe('Method’s error');
   });

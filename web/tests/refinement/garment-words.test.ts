@@ -169,14 +169,14 @@ describe('garment-words', () => {
     const panes = { ...panesOf(off, EMPTY_PANE), planned: { ...off, lostM: 0.003 } };
     const state = { ...STATE, panes };
     expect(lossSentence(state)).toMatch(
-      /faces of the coarse mesh are still 6\.0 mm off it and those of the multi-resolution one 3\.0 mm\.$/,
+      /The coarse mesh cannot show details smaller than 6\.0 mm, the multi-resolution one none smaller than 3\.0 mm\.$/,
     );
-    expect(lossSentence({ ...state, rival: 'even' })).toContain('of the even mesh');
+    expect(lossSentence({ ...state, rival: 'even' })).toContain('The even mesh');
     const folded = { ...off, foldsM: 0.0021 };
     const all = { ...state, panes: panesOf(folded, EMPTY_PANE) };
     expect(lossSentence(all)).toContain('some of which is chance');
     const floor = { foldsM: 0.0014, surfaceM: 0.01 };
-    expect(lossSentence({ ...all, floor })).toContain('by 1.4 mm two fine runs do');
+    expect(lossSentence({ ...all, floor })).toContain('two equally fine runs differ by 1.4 mm too');
     expect(lossSentence(STATE)).toBe('');
   });
 

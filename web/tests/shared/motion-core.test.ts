@@ -306,7 +306,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     ];
     send({ type: 'grab', vertex });
     send({ type: 'moveGrab', target });
-    send({ type: 'step', count: 1, wantsNumbers: false, buffer: loaded.buffers[1] });
+    send({ type: 'step', count: 30, wantsNumbers: false, buffer: loaded.buffers[1] });
     const moved = frameViews(take('frame').buffer).positions;
     const held = moved.subarray(3 * vertex, 3 * vertex + 3);
     // The stand-in swings what it steps; the module puts a held vertex at its target.

@@ -163,6 +163,7 @@ class FakeSimulation implements SimulationHandle {
       step: this.steps,
       largest_stretch: 0.01,
       rms_stretch: 0.004,
+      asked_stretch: null,
       residual: 1e-4,
       iterations: 7,
       parts_ms: { forces: 0.5 * this.steps, solve: 1.5 * this.steps },

@@ -32,7 +32,7 @@ function createBadge(parent: HTMLElement, side: Side) {
     );
     const [first] = signsOf(state);
     badge.classList.toggle('fired', first !== undefined);
-    const calm = timeS === 0 ? '' : 'no sign of nonsense';
+    const calm = timeS === 0 ? '' : 'looks right';
     setText(sign, first ? `${SIGN_TITLES[first.sign]}, ${first.timeS.toFixed(2)} s` : calm);
   };
 }

@@ -6,7 +6,7 @@ import type { SideState } from '../state/failures-state';
 
 export const SIGN_TITLES: Record<Sign, string> = {
   stretch: 'stretched beyond its load',
-  speed: 'faster than anything explains',
+  speed: 'too fast to be true',
   unsolved: 'equations left unsolved',
   not_converged: 'did not converge',
   given_up: 'a solver gave up',

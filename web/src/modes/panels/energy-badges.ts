@@ -3,7 +3,7 @@ import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { Energy } from '../bindings/modal-module';
 import type { ModesState } from '../state/modes-state';
-import { changeText, ENERGY_TITLES } from './mode-words';
+import { ENERGY_TITLES, volumeWords } from './mode-words';
 
 const MOST_PANES = 2;
 
@@ -38,7 +38,7 @@ export function createEnergyBadges(
     energies.forEach((energy, index) => {
       const badge = badges[index];
       const volume = volumeOf(energy);
-      const change = volume === null ? '' : `, holds ${changeText(volume, 1)}`;
+      const change = volume === null ? '' : `, ${volumeWords(volume)}`;
       if (badge) setText(badge, `${ENERGY_TITLES[energy]}${change}`);
     });
   });

@@ -89,9 +89,9 @@ export function energyMeaning({ energy, compares, surface }: ModesState): string
   return ENERGY_MEANINGS[energy];
 }
 
-/** "+1.2 %" of what it was. */
-export function changeText(now: number, before: number): string {
-  const change = now / before - 1;
-  if (Math.abs(change) < 5e-4) return '± 0 %';
-  return `${change > 0 ? '+' : '−'}${percent(Math.abs(change))}`;
+/** Volume, as a share of what it was: "swells by 1.2 %". */
+export function volumeWords(ratio: number): string {
+  const change = Math.abs(ratio - 1);
+  if (change < 5e-4) return 'keeps its volume';
+  return `${ratio > 1 ? 'swells' : 'shrinks'} by ${percent(change)}`;
 }

@@ -58,7 +58,7 @@ export function shareWords({ motion, rigid, modes }: Shares): string {
     enough >= 0
       ? 'A few modes are enough to work with.'
       : 'Large turns are missing: a mode moves every point straight.';
-  return `Of ${motion}, by squares of distances and by mass, ${sum}. ${reason}`;
+  return `Of ${motion}, ${sum}. ${reason}`;
 }
 
 function draw(root: SVGElement, { rigid, modes }: Shares): void {

@@ -5,7 +5,7 @@ import { extentOf } from '../../shared/state/vectors';
 import type { Energy, FilledFrame } from '../bindings/modal-module';
 import { bent, type KeyOrigin, type KeyShape } from '../state/key-shapes';
 import type { ModeNumbers } from '../state/material';
-import { mixInto, REACH } from '../state/mix';
+import { mixInto, quietAmplitude, REACH } from '../state/mix';
 import { pulledMix, timeNearest } from '../state/pull';
 import { shapeAt } from '../state/timeline';
 import type { CompletedMessage, OpenedMessage } from '../worker/modal-protocol';
@@ -52,6 +52,13 @@ export class Body {
       amplitudes,
       this.reach,
     );
+  }
+
+  /** Amplitude of a mode at which a closed body keeps its volume. */
+  quiet(energy: Energy, mode: number): number {
+    const { shape, triangles, reach } = this;
+    const move = this.moves.get(energy)?.subarray(mode * shape.length, (mode + 1) * shape.length);
+    return move ? quietAmplitude(move, shape, triangles, reach) : 1;
   }
 
   /** Writes the completed motion at a time; false where there is none yet. */

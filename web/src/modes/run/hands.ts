@@ -37,10 +37,12 @@ export class Hands {
     this.store.set({ showing: showing === 'modes' ? 'keys' : 'modes' });
   }
 
-  /** One mode and no other; it swings at once, unless motion is not wanted. */
+  /** One mode and no other, as far as it keeps a volume; it swings at once, unless motion is not wanted. */
   playAlone(mode: number): void {
-    if (mode >= (this.store.get().found?.modes.length ?? 0)) return;
-    const amplitudes = Array.from({ length: mode + 1 }, (_, at) => (at === mode ? 1 : 0));
+    const { found, energy, surface } = this.store.get();
+    if (mode >= (found?.modes.length ?? 0)) return;
+    const quiet = surface?.closed ? (this.run.present?.quiet(energy, mode) ?? 1) : 1;
+    const amplitudes = Array.from({ length: mode + 1 }, (_, at) => (at === mode ? quiet : 0));
     const playing = this.store.get().phase === 'ready' && mayMove();
     this.store.set({ amplitudes, showing: 'modes', playing, invited: false });
   }

@@ -22,6 +22,27 @@ export function mixInto(
   });
 }
 
+/** Change of a closed body's volume, as a share, that is too small to see. */
+const MOST_SWELL = 0.02;
+
+/** Largest amplitude, up to 1, at which a mode's straight swing neither swells nor shrinks a closed body. */
+export function quietAmplitude(
+  move: Float32Array,
+  shape: Float64Array,
+  triangles: Uint32Array,
+  reach: number,
+): number {
+  const rest = enclosedVolume(shape, triangles);
+  const mixed = new Float64Array(shape.length);
+  const swells = (amplitude: number): boolean => {
+    mixInto(mixed, shape, move, [amplitude], reach);
+    return Math.abs(enclosedVolume(mixed, triangles) / rest - 1) > MOST_SWELL;
+  };
+  let amplitude = 1;
+  while (swells(amplitude) || swells(-amplitude)) amplitude *= 0.9;
+  return amplitude;
+}
+
 /** Largest distance between a vertex in one shape and in another [m]. */
 export function farthestMove(a: ArrayLike<number>, b: ArrayLike<number>): number {
   let most = 0;

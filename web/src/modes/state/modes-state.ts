@@ -4,7 +4,7 @@ import type { ObjUnit } from '../../shared/state/obj-file';
 import type { Energy, FilledFrame, SurfaceAnswer, VolumeChoice } from '../bindings/modal-module';
 import { firstKeys, type KeyOrigin, type KeyShape } from './key-shapes';
 import type { ModeNumbers } from './material';
-import { type BarCells, MODELS } from './models';
+import type { BarCells } from './models';
 
 /** Modes that swing, or the motion through the key shapes. */
 export type Showing = 'modes' | 'keys';
@@ -102,8 +102,8 @@ export function usualLink(model: string): ModesLink {
     energy: model === 'cloth' ? 'cloth' : 'volume',
     compares: false,
     count: 12,
-    amplitudes: [1],
-    showing: model === MODELS[0]?.id ? 'keys' : 'modes',
+    amplitudes: [model === 'cloth' ? 1 : 0.25], // a solid body keeps its volume
+    showing: 'modes',
     time: 0.5,
     ghost: true,
     edges: false,

@@ -66,7 +66,7 @@ const HINTS: Record<string, (value: unknown, setting: Setting) => Change> = {
   '/method/substeps': (value) => {
     const substeps = Math.min(Number(value), MOST_SUBSTEPS);
     return {
-      why: 'Its steps are too long for so stiff a cloth on so fine a mesh.',
+      why: 'The computer looks too rarely.',
       title: `Start again with ${substeps} substeps`,
       change: { substeps },
     };
@@ -74,7 +74,7 @@ const HINTS: Record<string, (value: unknown, setting: Setting) => Change> = {
   '/method/iterations': (value) => {
     const iterations = Math.min(Number(value), MOST_ITERATIONS);
     return {
-      why: 'Too few iterations solve each of its steps.',
+      why: 'The computer tries too few times in each step.',
       title: `Start again with ${iterations} iterations`,
       change: { iterations },
     };

@@ -1,5 +1,6 @@
 // Reading of the reports of a run: its numbers, what a step takes, its pace, and what goes wrong.
 import type { RunNumbers } from '../../shared/bindings/pleat-module';
+import type { RunWarning } from '../../shared/bindings/run-warning';
 import type { RunReport } from '../../shared/workers/motion-protocol';
 import type { MotionState } from '../state/motion-state';
 import type { Setting } from '../state/setting';
@@ -37,10 +38,23 @@ export class RunReading {
     }
     const pace = state.playing ? this.pace(numbers.time_s) : null;
     if (pace !== null) patch.pace = pace;
-    const warning = numbers.warnings.slice(this.nWarned).at(0);
-    this.nWarned = numbers.warnings.length;
-    if (warning) patch.problem = { source: 'setting', ...remedyForWarning(warning, state.setting) };
+    const problem = this.problemOf(numbers.warnings, state);
+    if (problem) patch.problem = problem;
     return patch;
+  }
+
+  /** The problem that a new warning is, or the one that is shown, with the remedy that its warning has by now. */
+  private problemOf(warnings: readonly RunWarning[], { problem, setting }: MotionState) {
+    const [fresh] = warnings.slice(this.nWarned);
+    this.nWarned = warnings.length;
+    if (fresh)
+      return {
+        source: 'setting',
+        warning: fresh.kind,
+        ...remedyForWarning(fresh, setting),
+      } as const;
+    const known = problem && warnings.find(({ kind }) => kind === problem.warning);
+    return known && { ...problem, remedy: remedyForWarning(known, setting).remedy };
   }
 
   /** Simulated seconds a second, once the window is over. */

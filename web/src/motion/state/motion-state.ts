@@ -8,6 +8,7 @@ import type {
   SceneSummary,
   SpringSplit,
 } from '../../shared/bindings/pleat-module';
+import type { RunWarning } from '../../shared/bindings/run-warning';
 import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
 import type { ImexSaving } from './imex-saving';
 import type { MotionLink } from './motion-link';
@@ -33,6 +34,8 @@ export interface Problem {
    */
   source: 'link' | 'setting' | 'file' | 'run' | 'worker' | 'picture' | 'browser';
   sentence: string;
+  /** Kind of the run's warning that it is. */
+  warning?: RunWarning['kind'];
   remedy?: Remedy;
 }
 

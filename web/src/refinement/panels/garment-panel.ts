@@ -22,7 +22,7 @@ const COLOUR_TITLES: readonly { value: ColourId; title: string }[] = [
 ];
 
 const RIVAL_TITLES: readonly { value: RivalId; title: string }[] = [
-  { value: 'coarse', title: 'Coarse: where plans begin' },
+  { value: 'coarse', title: 'Coarse' },
   { value: 'even', title: 'Even: as many vertices' },
 ];
 

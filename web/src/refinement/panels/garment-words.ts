@@ -58,8 +58,8 @@ export function warningWords({ warnings: [first] }: GarmentPane): string {
 
 /** The substeps that may help a pane that shows it, as far as the page goes; else null. */
 export function hintedSubsteps({ warnings: [first] }: GarmentPane): number | null {
-  const substeps = Number(first?.hints['/method/substeps']);
-  return substeps <= MOST_SUBSTEPS ? substeps : null;
+  const hint = first?.hints['/method/substeps'];
+  return hint === undefined ? null : Math.min(Number(hint), MOST_SUBSTEPS);
 }
 
 /** "skirt_fast_walk in silk" → "fast walk in silk". */
@@ -140,11 +140,11 @@ export function lossSentence({
   const other = panes[rival];
   if (other.lostM === null || planned.lostM === null) return '';
   const named = PANE_TITLES[rival].toLowerCase();
-  const lost = `With every vertex on the fine cloth, the faces of the ${named} mesh are still ${smallLength(other.lostM)} off it and those of the ${PLANNED} one ${smallLength(planned.lostM)}.`;
+  const lost = `The ${named} mesh cannot show details smaller than ${smallLength(other.lostM)}, the ${PLANNED} one none smaller than ${smallLength(planned.lostM)}.`;
   if (other.foldsM === null || planned.foldsM === null) return lost;
-  const folds = ` Their folds stand out otherwise than fine’s by ${smallLength(other.foldsM)} and ${smallLength(planned.foldsM)}`;
+  const folds = ` Folds differ from fine’s by ${smallLength(other.foldsM)} and ${smallLength(planned.foldsM)}`;
   if (!floor) return `${lost}${folds}, some of which is chance.`;
-  return `${lost}${folds}; by ${smallLength(floor.foldsM)} two fine runs do, one in air heavier by a millionth.`;
+  return `${lost}${folds}, but folds are chance: two equally fine runs differ by ${smallLength(floor.foldsM)} too.`;
 }
 
 export function ruleWords({ rule, isByShape }: PlanStory): string {

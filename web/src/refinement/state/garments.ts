@@ -32,8 +32,8 @@ export type MotionId = (typeof MOTIONS)[number]['value'];
 
 /** Method of the steps of all panes: the scenes' own method, or one that shows a fine skirt while it walks. */
 export const METHODS = [
-  { value: 'implicit', title: 'implicit: the scenes’ own' },
-  { value: 'multigrid', title: 'multigrid: computed as it walks' },
+  { value: 'implicit', title: 'Careful (slow)' },
+  { value: 'multigrid', title: 'Live' },
 ] as const;
 export type MethodId = (typeof METHODS)[number]['value'];
 

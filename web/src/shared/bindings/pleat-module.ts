@@ -35,6 +35,8 @@ export interface RunNumbers {
   /** Relative residual of the last step's own equations. */
   residual: number;
   iterations: number;
+  /** Length of the tautest thread over that at rest, were the cloth where a hand wants it; null without a hand. */
+  asked_stretch: number | null;
   /** Total wall time since load, the first step not counted: of each part that was timed [ms]. */
   parts_ms: Record<string, number>;
   /** Time of the steps as a whole [ms], of which there were `steps_timed`. */

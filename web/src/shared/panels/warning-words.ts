@@ -5,26 +5,31 @@ import { digits, percent } from './quantity';
 /** Least stretch that is many lengths, however many. */
 const MANY = 10;
 
+/** Least stretch that is an explosion; less is too much all the same. */
+const EXPLOSION = 1;
+
 function stretchText(strain: number | null): string {
   return strain === null || strain > MANY ? 'many times its length' : `by up to ${percent(strain)}`;
 }
 
 export function warningSentence({ kind, time_s, value, bound }: RunWarning): string {
-  const since = `From ${digits(time_s, 2)} s on`;
+  const since = `from ${digits(time_s, 2)} s on`;
   switch (kind) {
     case 'stretch':
-      return `The run has exploded. ${since} the cloth is stretched ${stretchText(value)}; its weight explains ${percent(bound)}.`;
+      return value !== null && value < EXPLOSION
+        ? `The cloth stretches too much: ${since} ${stretchText(value)}, where woven cloth tears at about 10 %.`
+        : `The run has exploded: ${since} the cloth is stretched ${stretchText(value)}.`;
     case 'speed':
-      return `The run has exploded. ${since} the cloth is as fast as ${digits(value, 2)} m/s; falling and pulling explain ${digits(bound, 2)} m/s.`;
+      return `The run has exploded: ${since} the cloth moves at ${digits(value, 2)} m/s, which is too fast to be true.`;
     case 'unsolved':
-      return `This is not how cloth moves. ${since} steps leave ${percent(value)} of their equations unsolved.`;
+      return `The computer stops before it has the answer: ${since} ${percent(value)} of each step is left unsolved, and the cloth sags like rubber.`;
     case 'not_converged':
-      return `${since} steps did not converge, and left ${percent(value)} of their equations unsolved.`;
+      return `Steps did not converge: ${since} they left ${percent(value)} of their equations unsolved.`;
     case 'given_up':
-      return `${since} a factor solved steps that the solver gave up.`;
+      return `A factor solved steps that the solver gave up, ${since}.`;
     case 'soft':
-      return `${since} the cloth stretches like a softer fabric, ${stretchText(value)}; its own explains ${percent(bound)}.`;
+      return `The cloth stretches like a softer fabric: ${since} ${stretchText(value)}, where its own would by ${percent(bound)}.`;
     case 'unbalanced':
-      return `${since} too few rounds hold the cloth up, not its threads: ${percent(value)} of its weight is unbalanced.`;
+      return `Too few rounds hold the cloth up, not its threads: ${since} ${percent(value)} of its weight is unbalanced.`;
   }
 }

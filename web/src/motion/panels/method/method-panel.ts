@@ -217,7 +217,7 @@ export function createMethodPanel(
     const needs = [
       built.length > 0 ? `Built: ${built.join(', ')}.` : '',
       left_out.length > 0
-        ? `Left out, because nothing here asks for it: ${left_out.join(', ')}.`
+        ? `Left out, as this scene needs none of it: ${left_out.join(', ')}.`
         : '',
       ...(notes ?? []),
       `One step is ${stepTitle(setting.stepS)}.`,

@@ -57,13 +57,11 @@ function fromReference(reference: ReferenceNumbers, isOwnMesh: boolean): ErrorWo
 
 /** The error as far as it is known without a reference: the equations' residual and the stretch. */
 function fromItself(numbers: RunNumbers, solves: boolean): string {
-  const parts = ['No reference for this scene.'];
+  const parts = ['How wrong this is, nobody has measured.'];
   if (numbers.step === 0) return parts.join(' ');
   const { residual, largest_stretch } = numbers;
-  const within = residual < EXACT_RESIDUAL ? 'exactly' : `to within ${percent(residual)}`;
-  parts.push(
-    solves ? `Its equations are solved ${within};` : 'Its method has no equations to solve;',
-  );
+  const within = residual < EXACT_RESIDUAL ? 'exactly' : `to ${percent(residual)}`;
+  parts.push(solves ? `The sums are right ${within};` : 'The method has no sums to check;');
   parts.push(`threads are stretched by ${percent(largest_stretch)} at most.`);
   return parts.join(' ');
 }

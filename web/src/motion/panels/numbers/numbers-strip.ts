@@ -6,6 +6,7 @@ import { type Store, watch } from '../../../shared/state/store';
 import type { MotionState } from '../../state/motion-state';
 import { ownQuantities, type Setting } from '../../state/setting';
 import { errorWords } from './error-words';
+import { pullSentence } from './pull-words';
 
 const STATUS_WORDS: Record<MotionState['phase'], string> = {
   loading: 'loading',
@@ -107,7 +108,7 @@ const ITEMS: readonly Item[] = [
   },
 ];
 
-/** The error in a sentence, with a button for what it takes to know it. */
+/** What a hand asks for, or the error, in a sentence, with a button for what it takes to know that. */
 function createVerdict(store: Store<MotionState>, actions: { bringReference(): void }) {
   const sentence = element('span');
   const ask = button('', () => {
@@ -117,10 +118,12 @@ function createVerdict(store: Store<MotionState>, actions: { bringReference(): v
   return {
     line: element('p', { class: 'verdict' }, sentence, ' ', ask),
     update(state: MotionState) {
+      const pulled = pullSentence(state);
       const words = errorWords(state);
-      setText(sentence, words.sentence);
-      setText(ask, words.action ?? '');
-      ask.hidden = words.action === undefined;
+      const action = pulled === null ? words.action : undefined;
+      setText(sentence, pulled ?? words.sentence);
+      setText(ask, action ?? '');
+      ask.hidden = action === undefined;
     },
   };
 }
@@ -151,6 +154,7 @@ export function createNumbersStrip(
     store,
     [
       'numbers',
+      'held',
       'timing',
       'summary',
       'phase',

@@ -119,7 +119,7 @@ export function createKnitForm(parent: HTMLElement, store: Store<MotionState>): 
     'Knit: particles, springs, pattern',
     { class: 'knit', open: true },
     ...lines.slice(0, -1),
-    field('Damping is given in', dampingPer.control, dampingNote),
+    field('Unit of damping', dampingPer.control, dampingNote),
     ...lines.slice(-1),
     refused,
     boundNote,

@@ -16,7 +16,7 @@ const WHAT_ERRORS_ARE: Record<MeshError, string> = {
 };
 
 const ERRORS_OF_METHODS =
-  'Each method is compared with the exact motion on its own mesh: errors of different levels do not compare.';
+  'Compare methods within one level only: each is held against the exact motion on its own mesh.';
 
 /** A method that is so many times as wrong as its mesh is what is wrong. */
 const MUCH = 3;
@@ -54,12 +54,12 @@ function refinementSentence(rows: readonly BenchRow[]): string {
   const last = finer.at(-1);
   if (!first) return '';
   const wordsOf = (row: BenchRow) => `${meshText(row, 'known', 'below')} at level ${row.level}`;
-  if (!last) return `What the mesh does wrong: ${wordsOf(first)}.`;
+  if (!last) return `Error of the mesh: ${wordsOf(first)}.`;
   const isOneFiner = finer.length === 1 && last.level === first.level + 1;
   const isTold = first.mesh_error_m !== null;
   const falls = (mostOfMesh(last) ?? Number.POSITIVE_INFINITY) < (mostOfMesh(first) ?? 0);
   const verb = isTold && falls ? 'falls from' : 'goes from';
-  return `${isOneFiner ? 'One level finer' : 'Level by level'}: what the mesh does wrong ${verb} ${wordsOf(first)} to ${finer.map(wordsOf).join(', to ')}.`;
+  return `${isOneFiner ? 'One level finer' : 'Level by level'}: the error of the mesh ${verb} ${wordsOf(first)} to ${finer.map(wordsOf).join(', to ')}.`;
 }
 
 /** The answer of a sweep so far. */
