@@ -24,7 +24,7 @@ class HandReach {
   /// Thread from a vertex that the hand holds to one beside it.
   struct Thread {
     VertexId held, beside;
-    double length;  // at rest [m]
+    double length;  // length at rest [m]
   };
 
   /// ways     length along the cloth at rest from the grabbed vertex to each vertex [m]
@@ -44,7 +44,7 @@ class HandReach {
  private:
   struct Tether {
     Pin pin;
-    double length;   // at rest [m]
+    double length;   // length at rest [m]
     double longest;  // [m]
   };
   struct Ball {
@@ -56,7 +56,7 @@ class HandReach {
 
   std::vector<Tether> tethers_;
   std::vector<Thread> threads_;
-  std::vector<Ball> balls_;  // in which the grabbed vertex may be at the end of a step
+  std::vector<Ball> balls_;  // bounds of the grabbed vertex's place at the end of a step
 };
 
 /// Lengths of the shortest ways along edges from a vertex to all [m]; infinite to other pieces.

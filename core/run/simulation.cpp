@@ -220,8 +220,8 @@ void Simulation::grab(VertexId vertex) {
   stepper_->refresh();
 }
 
-// On a flat sheet the way between two vertices is their distance; on other surfaces it is along
-// edges. A hand as wide as what it holds bears all of its pull on that width.
+// The way between two vertices is their distance on a flat sheet, and along edges on other
+// surfaces. A hand as wide as what it holds bears all of its pull on that width.
 HandReach Simulation::reach_of(VertexId vertex, double radius,
                                const std::vector<bool>& in_hand) const {
   if (!scene_.cloth->is_surface() || scene_.model.tearing) return {{}, {}, {}, 0, 0};

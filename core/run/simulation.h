@@ -104,7 +104,7 @@ class Simulation final : public MovingCloth {
   struct Grab {
     VertexId vertex;
     std::size_t first_pin;  // its pins are the last of model_.pins
-    Vec3 target;            // where the hand wants `vertex` at the end of the next step [m]
+    Vec3 target;            // place that the hand wants `vertex` at after the next step [m]
     HandReach reach;
   };
 

@@ -108,7 +108,7 @@ const ITEMS: readonly Item[] = [
   },
 ];
 
-/** What a hand asks for, or the error, in a sentence, with a button for what it takes to know that. */
+/** The pull of a hand, or the error, in a sentence, with a button for what it takes to know that. */
 function createVerdict(store: Store<MotionState>, actions: { bringReference(): void }) {
   const sentence = element('span');
   const ask = button('', () => {
