@@ -112,7 +112,7 @@ await check('a pull beyond what cloth bears is told in the moment, and is no exp
     const { x, y } = await placeOn(page, await page.evaluate(() => window.pleat.inviting()));
     await page.mouse.move(x, y);
     await page.mouse.down();
-    await page.mouse.move(x - 250, y - 250, { steps: 8 });
+    await page.mouse.move(x - 250, y + 250, { steps: 8 });
     const { state, words } = await momentUntil(
       page,
       ({ held, numbers: now }) => held && now.asked_stretch > 1.1,
