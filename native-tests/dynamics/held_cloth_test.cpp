@@ -124,7 +124,7 @@ TEST_CASE("held cloth: a sheet that lands aslant loses mu times its weight", "[c
     SheetOnSolid sheet = sheet_on(floor_collider(kFriction), cells, kWidth, middle, side);
     sheet.state.velocities.row(0).setConstant(kSpeed);
     sheet.run(method_of(type, 1.0 / 240), kDuration);
-    CHECK(kSpeed - sheet.velocity().x() == Approx(kFriction * 9.81 * kDuration).epsilon(0.03));
+    CHECK(kSpeed - sheet.velocity().x() == Approx(kFriction * 9.81 * kDuration).epsilon(0.04));
   }
 }
 

@@ -183,11 +183,13 @@ TEST_CASE("hard cases: variants run beside each other, and their ends are compar
 TEST_CASE("hard cases: a hand, another mesh and places to start from act when they are said to",
           "[hard_cases]") {
   HardCase hard_case = sheet_case();
-  hard_case.checks = {stays_within(1.9)};
+  const auto found = [&] { return outcome(hard_case, steppers::kImplicitEuler).findings[0].found; };
+  hard_case.checks = {velocity_jumps_at_most(0.5)};
+  const double untouched = found();
   const VertexId lower_right(8);
-  hard_case.events = {{0.02, HandGrabs{lower_right}}, {0.03, HandMoves{{1, 0, 0}}}};
-  CHECK(outcome(hard_case, steppers::kImplicitEuler).findings[0].found ==
-        Approx(std::sqrt(5.0)).epsilon(0.02));
+  hard_case.events = {{0.02, HandGrabs{lower_right}}, {0.03, HandMoves{{0, 0.5, 0.5}}}};
+  CHECK(found() > 2 * untouched);
+  hard_case.checks = {stays_within(1.9)};
   hard_case.events = {{0.02, SceneSwitch{{{"/refinement/level", 1}}}}};
   CHECK(outcome(hard_case, steppers::kImplicitEuler).status == CaseStatus::ok);
   hard_case.events = {};
