@@ -1,5 +1,5 @@
 // ./pleat bench page_truth (--help tells the options)
-// What the page shows and says of cloth that a visitor pulls, on the WebAssembly that it runs.
+// Truth of the page: whether it raises alarms over cloth that a visitor pulls. It runs the page's WebAssembly.
 import { runParts } from './parts/bench-parts.mjs';
 import { pulls } from './parts/page-truth-pulls.mjs';
 

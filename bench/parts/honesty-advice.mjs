@@ -5,6 +5,7 @@ import { changed, readJson, root, shippedScene } from './assets.mjs';
 import { tell } from './bench-options.mjs';
 import { atLeast, short, table } from './bench-rows.mjs';
 import { ran } from './command.mjs';
+import { lyingSheet } from './same-cloth-scenes.mjs';
 
 const kExplosions = join(root, 'native-tests', 'support', 'explosions.json');
 
@@ -17,21 +18,11 @@ const explosions = () =>
       scene: changed(shippedScene(scene), { ...changes, '/duration_s': seconds }),
     }));
 
-/** A square of n x n cells that swings down from its upper edge, or a part of it. */
+/** Square of n x n cells that swings down from its upper edge. */
 function swinging(fabric, n, cell, method, changes = {}) {
   const scene = {
     name: 'swinging',
-    cloth: {
-      sheet: {
-        width_m: n * cell,
-        height_m: n * cell,
-        columns: n,
-        rows: n,
-        origin_m: [0, 1, 0],
-        warp_direction: [0, 0, 1],
-        weft_direction: [1, 0, 0],
-      },
-    },
+    cloth: lyingSheet(n, n * cell, [0, 1, 0]),
     fabric: { name: fabric },
     pins: [{ part: 'upper_edge' }],
     duration_s: 0.5,

@@ -45,12 +45,13 @@ function pulled(module, scene, stepper, random) {
   const run = opened(module, scene, stepper);
   const told = [];
   let stretch = 0;
-  const step = (frames, each = () => {}) => {
+  const step = (frames, move = null) => {
     for (let frame = 1; frame <= Math.round(frames); ++frame) {
-      each(frame);
+      move?.(frame);
       run.step(1);
-      const { warnings } = answer(run.numbers());
+      const { warnings, largest_stretch } = answer(run.numbers());
       for (const { kind } of warnings) if (!told.includes(kind)) told.push(kind);
+      if (move) stretch = Math.max(stretch, largest_stretch);
     }
   };
   step(kBefore / kFrame);
@@ -61,7 +62,6 @@ function pulled(module, scene, stepper, random) {
   step(frames + pull.held / kFrame, (frame) => {
     const share = Math.min(frame / frames, 1);
     run.moveGrab(...place.map((x, k) => x + share * pull.way[k]));
-    stretch = Math.max(stretch, answer(run.numbers()).largest_stretch);
   });
   run.releaseGrab();
   step(kAfter / kFrame);

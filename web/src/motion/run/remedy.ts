@@ -61,24 +61,22 @@ interface Change {
   change: Partial<Setting>;
 }
 
+/** A count as far as the page goes, why more of it may help, and the words for it. */
+const countHint =
+  (count: 'substeps' | 'iterations', most: number, why: string) =>
+  (value: unknown): Change => {
+    const more = Math.min(Number(value), most);
+    return { why, title: `Start again with ${more} ${count}`, change: { [count]: more } };
+  };
+
 /** How a value that may help is set, why, and the words for it. */
 const HINTS: Record<string, (value: unknown, setting: Setting) => Change> = {
-  '/method/substeps': (value) => {
-    const substeps = Math.min(Number(value), MOST_SUBSTEPS);
-    return {
-      why: 'The computer looks too rarely.',
-      title: `Start again with ${substeps} substeps`,
-      change: { substeps },
-    };
-  },
-  '/method/iterations': (value) => {
-    const iterations = Math.min(Number(value), MOST_ITERATIONS);
-    return {
-      why: 'The computer tries too few times in each step.',
-      title: `Start again with ${iterations} iterations`,
-      change: { iterations },
-    };
-  },
+  '/method/substeps': countHint('substeps', MOST_SUBSTEPS, 'The computer looks too rarely.'),
+  '/method/iterations': countHint(
+    'iterations',
+    MOST_ITERATIONS,
+    'The computer tries too few times in each step.',
+  ),
   '/method': (value, setting) => {
     const { stepper, step_s, substeps } = value as {
       stepper: string;
