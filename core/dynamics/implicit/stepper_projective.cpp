@@ -274,27 +274,43 @@ void StepperProjective::place_first_guess(double time_end, double h) {
     const Mat3 with_mass = model_.masses[v] * Mat3::Identity() + held.resistance;
     positions_.col(v) += along + with_mass.inverse() * (held.resistance * (way - along));
   }
+  place_between_parents(model_.hanging, positions_);
 }
 
-/// Slope of the energy that the rounds lower, at positions_ along this way of free vertices [J].
-double StepperProjective::slope(const Positions& way, double time_end, double h) {
-  set_right_side(time_end, h);
-  solution_ = positions_.transpose();
-  const auto A = matrix_.selfadjointView<Eigen::Lower>();
-  double sum = 0;
-  for (int c = 0; c < 3; ++c) {
-    column_.noalias() = A * solution_.col(c);
-    column_ -= right_side_.col(c);
-    for (int i = 0; i < model_.n_vertices(); ++i) sum += way(c, i) * column_[i];
+/// Slopes of the energy that the rounds lower [J], along fall_: at positions_, and where it ends.
+std::array<double, 2> StepperProjective::slopes(double h) const {
+  double begin = 0;
+  double end = 0;
+  for (int i = 0; i < model_.n_vertices(); ++i) {
+    if (model_.hangs(VertexId(i))) continue;
+    const Vec3 fall = fall_.col(i);
+    const double inertia = model_.masses[i] / (h * h);
+    const double slope = inertia * fall.dot(positions_.col(i) - predicted_.col(i));
+    begin += slope;
+    end += slope + inertia * fall.squaredNorm();
   }
-  return sum;
+  for (std::size_t s = 0; s < model_.springs.size(); ++s) {
+    const Spring& spring = model_.springs[s];
+    const Target& target = targets_[s];
+    const Vec3 d = positions_.col(spring.a) - positions_.col(spring.b);
+    const Vec3 fall = fall_.col(spring.a) - fall_.col(spring.b);
+    const Vec3 d_end = d + fall;
+    const auto tension = [&target](const Vec3& way) {
+      const double length = way.norm();
+      return length > 0 ? target.weight * (1 - target.length / length) : target.weight;
+    };
+    const double damped = target.damped.dot(fall);
+    begin += tension(d) * d.dot(fall) - damped;
+    end += tension(d_end) * d_end.dot(fall) - damped;
+  }
+  return {begin, end};
 }
 
 // Where every force but the springs' takes vertices, springs at pins have turned, and few rounds do
 // not turn them back: what they come to is at rest below the equilibrium. Where the cloth coasts,
 // equilibrium stays as it is, but few rounds hold back what falls. So it starts between the two,
 // where the energy is least if its slope is linear there: at rest it coasts, in free fall it falls.
-void StepperProjective::ease_first_guess(double time_end, double h) {
+void StepperProjective::ease_first_guess(double h) {
   if (model_.pins.empty() && !(hold_ && !hold_->held().empty())) return;
   fall_ = positions_;
   for (int i = 0; i < model_.n_vertices(); ++i)
@@ -302,16 +318,10 @@ void StepperProjective::ease_first_guess(double time_end, double h) {
       positions_.col(i) = positions_begin_.col(i) + h * velocities_begin_.col(i);
   place_between_parents(model_.hanging, positions_);
   fall_ -= positions_;
-  for (const HangingVertex& vertex : model_.hanging) fall_.col(vertex.vertex).setZero();
-  const double coasting = slope(fall_, time_end, h);
-  positions_ += fall_;
-  place_between_parents(model_.hanging, positions_);
-  const double fallen = slope(fall_, time_end, h);
+  const auto [coasting, fallen] = slopes(h);
   double share = fallen <= 0 ? 1 : coasting / (coasting - fallen);
   if (coasting >= 0) share = 0;
-  fall_ *= share - 1;
-  positions_ += fall_;
-  place_between_parents(model_.hanging, positions_);
+  positions_ += share * fall_;
 }
 
 void StepperProjective::add_air_forces(const State& begin, double h) {
@@ -345,7 +355,7 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
     }
     place_first_guess(time_end, h);
     set_targets(h);
-    ease_first_guess(time_end, h);
+    ease_first_guess(h);
     if (acceleration_) start_acceleration(time_end, h);
   }
   SolveReport report;

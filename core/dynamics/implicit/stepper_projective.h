@@ -55,8 +55,8 @@ class StepperProjective final : public Stepper {
   void add_air_forces(const State& begin, double h);
   void remember_motion(const State& end, double h);
   void place_first_guess(double time_end, double h);
-  void ease_first_guess(double time_end, double h);
-  double slope(const Positions& way, double time_end, double h);
+  void ease_first_guess(double h);
+  std::array<double, 2> slopes(double h) const;
   void set_targets(double h);
   /// The right-hand side of the global solve into `side`: M/h^2 y, what pull_of gives for each
   /// spring, and pinned neighbours.
