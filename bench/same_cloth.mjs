@@ -4,10 +4,18 @@
 import { runParts } from './parts/bench-parts.mjs';
 import { markdown } from './parts/bench-rows.mjs';
 import { beads, largeSheets, sheets } from './parts/same-cloth-ball.mjs';
+import { checkCosts } from './parts/same-cloth-check.mjs';
 import { groupGoals, overallGoals } from './parts/same-cloth-goals.mjs';
 import { grips, inclines, slides, terminals } from './parts/same-cloth-motion.mjs';
 import { cantilevers, curtains, flags, sags } from './parts/same-cloth-rest.mjs';
-import { counts, reasons, runCases, steppers, verdictTable } from './parts/same-cloth-runs.mjs';
+import {
+  counts,
+  explicitOnes,
+  reasons,
+  runCases,
+  steppers,
+  verdictTable,
+} from './parts/same-cloth-runs.mjs';
 import { fineSwatches, slivers, swatchRows } from './parts/same-cloth-swatch.mjs';
 
 /** How many rows of each stepper are right. */
@@ -52,10 +60,12 @@ const parts = {
   bead: groupOf('bead', beads),
   ball: groupOf('ball', sheets),
   large_ball: groupOf('large_ball', largeSheets),
+  check_cost: () => checkCosts(steppers().filter((name) => !explicitOnes.includes(name))),
 };
 
 /** All groups that were run: counts of each stepper, and goals. */
 function overall(rows) {
+  if (rows.length === 0) return null;
   const names = [...new Set(rows.map(({ stepper }) => stepper))];
   return { text: `all groups:\n\n${countTable(rows, names)}`, goals: overallGoals(rows) };
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "cli/bare_cloth.h"
 #include "cli/command_table.h"
@@ -14,6 +15,8 @@
 #include "core/error/run_comparison.h"
 #include "core/reference/chain_reference.h"
 #include "core/reference/closed_form_reference.h"
+#include "core/run/part_timer.h"
+#include "core/run/rest_watch.h"
 #include "core/run/sampled_run.h"
 #include "core/run/timed_run.h"
 #include "core/scene/format/method_section.h"
@@ -49,6 +52,7 @@ struct BenchOptions {
   bool wants_parts = false;
   bool takes_turns = false;  // runs in turn with another program, by lines on stdin and stdout
   bool is_bare = false;      // the stepper alone
+  bool looks_for_rest = false;
   int n_frames = 60;
   std::vector<double> times;
 };
@@ -63,6 +67,13 @@ int await_turn(int n_left) {
   return std::clamp(n_frames, 1, n_left);
 }
 
+/// Looks whether the cloth is at rest, and balanced there. Returns the wall time [ms].
+double look_ms(RestWatch& rest, const Simulation& simulation) {
+  const Stopwatch stopwatch;
+  rest.after_step(simulation);
+  return 1e3 * stopwatch.elapsed();
+}
+
 /// Runs frame by frame and prints wall time, stretch, parts, and positions at the end of some
 /// frames.
 template <class Cloth>
@@ -71,8 +82,12 @@ Outcome run_bench(const Scene& scene, const BenchOptions& options) {
   Cloth cloth(scene);
   TimedRun run(cloth, options.wants_parts ? TimedRun::Parts::timed : TimedRun::Parts::untimed);
   Progress progress;
+  std::optional<RestWatch> rest;
+  if constexpr (std::is_same_v<Cloth, Simulation>) {
+    if (options.looks_for_rest) rest.emplace(cloth);
+  }
   double first_ms = 0;  // the first frame, in which things are built once
-  std::vector<double> ms, processor_ms, rms_stretch, largest_stretch;
+  std::vector<double> ms, processor_ms, rest_ms, rms_stretch, largest_stretch;
   Json samples = Json::array();
   int turn_end = options.takes_turns ? 1 : options.n_frames;
   for (int frame = 0; frame < options.n_frames; ++frame) {
@@ -81,6 +96,9 @@ Outcome run_bench(const Scene& scene, const BenchOptions& options) {
     const double seconds = run.advance(n_steps);
     const double processor_seconds = process_processor_time().value_or(0) - processor_start;
     if (run.has_ended()) break;
+    if constexpr (std::is_same_v<Cloth, Simulation>) {
+      if (rest) rest_ms.push_back(look_ms(*rest, cloth));
+    }
     if (frame > 0) {
       ms.push_back(1e3 * seconds);
       processor_ms.push_back(1e3 * processor_seconds);
@@ -116,6 +134,7 @@ Outcome run_bench(const Scene& scene, const BenchOptions& options) {
                {"core", core_version()},
                {"samples", samples},
                {"masses_kg", std::vector<double>(masses.data(), masses.data() + masses.size())}};
+  if (rest) json["rest_ms"] = rest_ms;
   if (options.wants_parts)
     json["parts_ms"] = json_parts(
         run.parts().mean_ms(std::max<double>(1, run.n_timed()) / static_cast<double>(n_steps)));
@@ -131,6 +150,7 @@ Outcome bench_run(Arguments arguments) {
   options.wants_parts = arguments.flag("--parts");
   options.takes_turns = arguments.flag("--turns");
   options.is_bare = arguments.flag("--bare");
+  options.looks_for_rest = arguments.flag("--rest");
   options.n_frames = arguments.whole_number("--frames", 2, 1'000'000).value_or(options.n_frames);
   options.times = take_times(arguments);
   if (!options.times.empty() && options.times.back() > (options.n_frames + 0.5) * kFrame)
@@ -139,6 +159,11 @@ Outcome bench_run(Arguments arguments) {
                                     Json(options.times.back()).dump() + " s");
   arguments.refuse({"--steps", "--duration"}, "bench run does not take this option, but --frames");
   const SceneInput input = take_scene(arguments);
+  if (options.is_bare && options.looks_for_rest)
+    throw InputError("--rest", "a bare stepper has no model to look at");
+  if (options.looks_for_rest && std::abs(input.scene.method.step - kFrame) > 1e-9)
+    throw InputError(
+        "--rest", "expected steps of a frame, 1/60 s, got " + Json(input.scene.method.step).dump());
   return with_source_named(input, [&] {
     return options.is_bare ? run_bench<BareCloth>(input.scene, options)
                            : run_bench<Simulation>(input.scene, options);
@@ -242,6 +267,7 @@ extern const Command kBenchRun(
   --parts                what the parts of a step cost
   --bare                 the stepper alone on masses, springs, pins and weight: what else a scene
                          could ask for costs, where it does not, what a run takes more than this
+  --rest                 what looks take whether cloth at rest is balanced, one after each step
   --turns                print "ready" after the first frame and wait for a line with the number of
                          frames of the next turn, until all have been run
 )");
