@@ -1,8 +1,17 @@
-// JSON files that the page takes as text come without the spaces that make them readable.
+// JSON files that the page takes as text come without the spaces that make them readable, and without what
+// is for their readers alone.
 import { readFileSync } from 'node:fs';
 import type { Plugin } from 'vite';
 
 const QUERY = '?raw';
+
+/** Of the notes of the fabric file, those that the page and its module read. */
+const READ_OF_META = ['sources', 'confidence'];
+
+function fabricsRead({ meta, fabrics }: { meta: object; fabrics: unknown }): object {
+  const read = Object.entries(meta).filter(([key]) => READ_OF_META.includes(key));
+  return { meta: Object.fromEntries(read), fabrics };
+}
 
 export function compactJson(): Plugin {
   return {
@@ -12,7 +21,8 @@ export function compactJson(): Plugin {
       if (!id.endsWith(`.json${QUERY}`)) return null;
       const path = id.slice(0, -QUERY.length);
       this.addWatchFile(path);
-      const text = JSON.stringify(JSON.parse(readFileSync(path, 'utf8')));
+      const whole = JSON.parse(readFileSync(path, 'utf8'));
+      const text = JSON.stringify(path.endsWith('/fabrics.json') ? fabricsRead(whole) : whole);
       return `export default ${JSON.stringify(text)}`;
     },
   };

@@ -7,15 +7,12 @@ import type { MotionState } from '../state/motion-state';
 export function createProblemBanner(
   parent: HTMLElement,
   store: Store<MotionState>,
-  actions: Pick<MotionRun, 'reset' | 'showAnew'>,
+  actions: Pick<MotionRun, 'reset' | 'take'>,
 ): void {
   const sentence = element('p');
   const help = button('', () => {
     const remedy = store.get().problem?.remedy;
-    if (!remedy) return;
-    const { setting, startsAnew } = remedy;
-    if (startsAnew) actions.showAnew({ setting, startSteps: 0, playing: true, problem: null });
-    else store.set({ setting });
+    if (remedy) actions.take(remedy);
   });
   const reset = button('Reset', () => actions.reset());
   const dismiss = button('Dismiss', () => store.set({ problem: null }));

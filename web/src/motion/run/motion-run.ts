@@ -18,13 +18,13 @@ import type {
 } from '../../shared/workers/motion-protocol';
 import type { LevelWish } from '../state/coarse-levels';
 import { withSample } from '../state/energy-samples';
-import { type MotionState, shownHeat, wantsReference } from '../state/motion-state';
+import { type MotionState, type Remedy, shownHeat, wantsReference } from '../state/motion-state';
 import { presetSetting, type Setting } from '../state/setting';
 import { withCost } from '../state/step-cost';
-import { type StartObj, startObjWorker } from './obj-client';
-import { ObjSource } from './obj-source';
+import { later } from './later';
+import type { StartObj } from './obj-client';
+import { createLaterObj, type LaterObj } from './obj-later';
 import { ReferenceSource } from './reference-source';
-import { remedyFor } from './remedy';
 import { type Content, canKeepMotion, isSameScene, loadOf } from './run-content';
 import { RunFrames } from './run-frames';
 import { RunReading } from './run-reading';
@@ -68,7 +68,8 @@ type Doing = 'load' | 'carryOver' | 'step' | 'nothing';
 
 /** Loads the state's setting into its worker, and follows the store from then on. */
 export class MotionRun {
-  readonly obj: ObjSource;
+  readonly obj: LaterObj;
+  private readonly bringRemedies: () => Promise<typeof import('./remedy') | null>;
   private readonly worker: RunWorker;
   private readonly reference: ReferenceSource;
   private readonly clock = createClock();
@@ -89,14 +90,15 @@ export class MotionRun {
     private readonly store: Store<MotionState>,
     private readonly view: MotionRunView,
     start: StartMotion = startMotionWorker,
-    startObj: StartObj = startObjWorker,
+    startObj?: StartObj,
   ) {
     this.worker = new RunWorker(start, {
       news: (message) => this.hear(message),
       broken: (reason, hasStarted) => this.breakDown(reason, hasStarted),
       atWork: (work) => this.watchWork(work),
     });
-    this.obj = new ObjSource(store, startObj, () => void this.load());
+    this.obj = createLaterObj(store, startObj, () => void this.load());
+    this.bringRemedies = later(store, 'What helps here', () => import('./remedy'));
     this.reference = new ReferenceSource(store, this.worker, (numbers) => {
       if (!this.isLoading) store.set({ numbers });
     });
@@ -143,6 +145,12 @@ export class MotionRun {
   showAnew(patch: Partial<MotionState> & Pick<MotionState, 'setting' | 'startSteps'>): void {
     this.startsAnew = true;
     this.store.set({ playing: false, ...patch, setting: { ...patch.setting } });
+  }
+
+  /** Shows the setting that helps, from its start or in the motion that there is. */
+  take({ setting, startsAnew }: Remedy): void {
+    if (startsAnew) this.showAnew({ setting, startSteps: 0, playing: true, problem: null });
+    else this.store.set({ setting });
   }
 
   /** Pauses; what the state says is of the shown frame then. */
@@ -225,7 +233,7 @@ export class MotionRun {
   }
 
   private hear(message: FromMotion): void {
-    if (message.type === 'refused') this.refuse(message.failure);
+    if (message.type === 'refused') void this.refuse(message.failure);
   }
 
   /** The worker is gone, or of no use any more: another one takes its place, once. */
@@ -301,15 +309,18 @@ export class MotionRun {
   /** The answer; null when there is none, or when it comes too late for what is shown by now. */
   private async answer<Answer>(question: Promise<Answer>): Promise<Answer | null> {
     const isCurrent = this.latest.mark();
-    const answer = await answerOf(question, (failure) => isCurrent() && this.refuse(failure));
+    const answer = await answerOf(question, (failure) => isCurrent() && void this.refuse(failure));
     return isCurrent() ? answer : null;
   }
 
-  private refuse(failure: Failure): void {
+  private async refuse(failure: Failure): Promise<void> {
     if (failure.kind === 'internal') return this.breakDown(failure.what, true);
     this.doing = 'nothing';
+    const isCurrent = this.latest.mark();
+    const remedies = await this.bringRemedies();
+    if (!isCurrent()) return;
     const { setting, mesh } = this.store.get();
-    const known = remedyFor(failure, setting);
+    const known = remedies?.remedyFor(failure, setting);
     const sentence = known?.sentence ?? sentenceOf(failure);
     const problem = { source: 'setting', sentence, remedy: known?.remedy } as const;
     this.store.set({ phase: 'refused', playing: false, problem });

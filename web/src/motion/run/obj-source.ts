@@ -4,42 +4,42 @@ import exampleUrl from '../../../../assets/meshes/skirt.obj?url';
 import { brokenSentence, sentenceOf } from '../../shared/bindings/answers';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import { fetched } from '../../shared/page/fetched';
-import type { ObjFile, ObjUnit } from '../../shared/state/obj-file';
+import {
+  type ObjFile,
+  type ObjUnit,
+  oddSize,
+  openObjFile,
+  textInMetres,
+} from '../../shared/state/obj-file';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
 import { AT_START, type MotionState } from '../state/motion-state';
 import type { ObjMesh } from '../state/obj-mesh';
 import { presetSetting } from '../state/setting';
-import type { ObjClient, StartObj } from './obj-client';
-
-type ObjFiles = typeof import('../../shared/state/obj-file');
-
-const UNFETCHED = 'What reads a mesh could not be fetched. Try again with a network.';
+import { type ObjClient, type StartObj, startObjWorker } from './obj-client';
 
 export class ObjSource {
-  private files: ObjFiles | null = null; // they come with the first file
   private client: ObjClient | null = null; // the client that is reading
   private own: ObjFile | null = null; // the visitor's, that was read last
 
   constructor(
     private readonly store: Store<MotionState>,
-    private readonly start: StartObj,
+    private readonly start: StartObj = startObjWorker,
     private readonly onExample: () => void,
   ) {}
 
   /** Shows the visitor's mesh, or says what is wrong with the file while the cloth goes on. */
   async open(file: File): Promise<void> {
     this.store.set({ reading: file.name });
-    const files = await this.bringFiles().catch(() => null);
-    const read = files ? await files.openObjFile(file) : UNFETCHED;
+    const read = await openObjFile(file);
     if (this.store.get().reading !== file.name) return; // given up
     if (typeof read === 'string') return this.refuse(read);
-    if (files) await this.read(files, read, 'm', true);
+    await this.read(read, 'm', true);
   }
 
   /** Takes the visitor's file in another unit. */
   async setUnit(unit: ObjUnit): Promise<void> {
-    if (this.own) await this.read(await this.bringFiles(), this.own, unit, true);
+    if (this.own) await this.read(this.own, unit, true);
   }
 
   /** Gives up what is being read. */
@@ -53,10 +53,8 @@ export class ObjSource {
   async bringExample(): Promise<void> {
     try {
       const text = await (await fetched(exampleUrl)).text();
-      const files = await this.bringFiles();
-      const read = await files.openObjFile(new File([text], 'skirt.obj'));
-      if (typeof read !== 'string' && this.client === null)
-        await this.read(files, read, 'm', false);
+      const read = await openObjFile(new File([text], 'skirt.obj'));
+      if (typeof read !== 'string' && this.client === null) await this.read(read, 'm', false);
     } catch {
       if (this.store.get().setting.preset !== 'obj') return;
       const sentence =
@@ -66,17 +64,7 @@ export class ObjSource {
     }
   }
 
-  private async bringFiles(): Promise<ObjFiles> {
-    this.files ??= await import('../../shared/state/obj-file');
-    return this.files;
-  }
-
-  private async read(
-    { textInMetres, oddSize }: ObjFiles,
-    file: ObjFile,
-    unit: ObjUnit,
-    isOwn: boolean,
-  ): Promise<void> {
+  private async read(file: ObjFile, unit: ObjUnit, isOwn: boolean): Promise<void> {
     this.cancel();
     const { name, low, high } = file;
     const client = this.start({
