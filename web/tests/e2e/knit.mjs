@@ -55,7 +55,7 @@ export async function checkKnit({ check }, visit) {
   await check('damping as printed asks for shorter explicit steps, told before any is taken', () =>
     visit('#scene=wool', async (page) => {
       await openForm(page);
-      await choice(page, 'Stepper').selectOption({ label: 'Explicit' });
+      await choice(page, 'Method').selectOption({ label: 'Explicit' });
       const form = page.locator('.knit');
       await eventually(async () => /in substeps of 9\d µs/.test(await form.textContent()), 'per m');
       await choice(page, 'Unit of damping').selectOption({ label: 'N s/mm (as printed)' });

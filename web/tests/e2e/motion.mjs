@@ -372,7 +372,7 @@ async function checkRefused({ check, open }) {
     expectThat(/^[\d.]+ m?s$/.test(texts[2]), texts.join(', '));
     expectThat(texts.filter((text) => /^≈ [\d.]+ m?s$/.test(text)).length === 3, texts.join(', '));
     expectThat(/^> [\d.]+ m?s$/.test(texts[4]), texts.join(', '));
-    await choice(page, 'Stepper').selectOption({ label: 'XPBD' });
+    await choice(page, 'Method').selectOption({ label: 'XPBD' });
     await isReady(page);
     expectThat((await page.locator('.levels small').allTextContents())[4] === '–', 'of another');
     await close();
@@ -431,7 +431,7 @@ async function checkInside({ check }, visit) {
       await eventually(async () => !(await picture(page)).equals(without), 'lines');
       await choice(page, 'Step').selectOption({ label: '1/960 s' });
       await eventually(async () => (await words()) !== told, 'another share at another step');
-      await choice(page, 'Stepper').selectOption({ label: 'XPBD' });
+      await choice(page, 'Method').selectOption({ label: 'XPBD' });
       await eventually(async () => /are taken alike/.test(await words()), 'none of XPBD');
     }),
   );

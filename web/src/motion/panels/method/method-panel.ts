@@ -1,6 +1,6 @@
 // The choice of a method: model, level, stepper, step, and the counts that the stepper reads.
 import { choice, element, field, setText } from '../../../shared/panels/element';
-import { shortTime, stepTitle } from '../../../shared/panels/quantity';
+import { percent, shortTime, stepTitle } from '../../../shared/panels/quantity';
 import { addSection, folded, noteLine } from '../../../shared/panels/section';
 import { type Store, watch } from '../../../shared/state/store';
 import { canRun, type Model, STEPPERS, stepperRow } from '../../../shared/steppers/steppers';
@@ -106,6 +106,14 @@ function modelPicker(onChoice: (model: Model) => void) {
   };
 }
 
+/** Share of the last step's equations that is left unsolved, by a method that has any. */
+function leftWords({ numbers, setting, isCutShort }: MotionState): string {
+  if (!numbers?.step || !stepperRow(setting.stepper).solves) return '';
+  const { residual, iterations } = numbers;
+  const end = isCutShort ? 'cut short after' : 'after';
+  return `Left unsolved: ${percent(residual)}, ${end} ${iterations} iterations.`;
+}
+
 export const STEPPER_CHOICES = STEPPERS.map(({ name, title }) => ({ value: name, title }));
 
 /** A place for a part that comes with the first setting that asks for it. */
@@ -180,17 +188,18 @@ export function createMethodPanel(
   );
   const counts = countFields(store);
   const builtNote = noteLine();
-  const builtBox = folded('What this scene needs', {}, builtNote);
+  const leftNote = noteLine();
+  const details = folded('Details', {}, leftNote, builtNote);
   addSection(
     parent,
     'Method',
     model.group,
     level.group,
     meshNote,
-    field('Stepper', stepper.control, stepperNote),
+    field('Method', stepper.control, stepperNote),
     element('div', { class: 'row' }, field('Step', step.control), ...counts.map((c) => c.box)),
     ...laterTrays(store, run),
-    builtBox,
+    details,
   );
 
   watch(store, ['setting', 'costs'], ({ setting, costs }) => level.show(setting, costs));
@@ -205,6 +214,7 @@ export function createMethodPanel(
     setText(stepperNote, meanings.filter((meaning) => meaning).join(' '));
     for (const count of counts) count.show(setting);
   });
+  watch(store, ['numbers', 'isCutShort'], (state) => setText(leftNote, leftWords(state)));
   watch(store, ['summary'], ({ summary, setting }) => {
     if (!summary) return;
     const { n_vertices, n_triangles, n_springs, n_bends, built, left_out, notes } = summary;

@@ -85,14 +85,6 @@ const ITEMS: readonly Item[] = [
     detail: ({ numbers }) => (numbers ? `RMS ${percent(numbers.rms_stretch)}` : ''),
   },
   {
-    title: 'Residual',
-    width: 'narrow',
-    meaning: 'What is left over of the step’s own equations, relative.',
-    text: ({ numbers }) => (numbers ? digits(numbers.residual, 2) : '–'),
-    detail: ({ numbers, isCutShort }) =>
-      isCutShort ? 'cut short' : numbers ? `${numbers.iterations} iterations` : '',
-  },
-  {
     title: 'Vertices',
     width: 'narrow',
     meaning: 'Points whose motion is computed.',
