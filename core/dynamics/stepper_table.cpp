@@ -62,8 +62,8 @@ constinit const StepperType steppers::kImplicitEuler = {
     .name = "implicit",
     .title = "Implicit",
     .meaning =
-        "Backward Euler: one large sparse system a substep. Stable at large steps, but it "
-        "damps the motion.",
+        "Safe at long steps, but takes some swing out of the cloth: backward Euler, one sparse "
+        "system a substep.",
     .settings = kImplicitSettings,
     .substeps_meaning = kDampedSubsteps,
     .takes_bend_friction = true,
@@ -212,6 +212,7 @@ constinit const StepperType steppers::kMultigrid = {
     .needs_springs = true,
     .is_single_precision = true,
     .usual_counts = kSmallSteps,
+    .is_usual_for_springs = true,
     .substep_cost = [](const MethodOptions& options) { return 2.0 * options.iterations; },
     .mark = {"M-5 4.2V-4.2L0 0.8L5-4.2V4.2Z", "#9c2f2f", "#f08f85"},
     .make_projections = cycle_projections,

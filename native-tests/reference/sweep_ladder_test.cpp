@@ -17,12 +17,12 @@ namespace {
 struct Ladder {
   const char* scene;
   double duration;  ///< [s]
-  int finest;
+  int coarsest, finest;
   const char* reference;
 };
-constexpr Ladder kLadders[] = {{"swinging_sheet", 0.4, 3, "converged"},
-                               {"curtain", 1, 2, "same_mesh"},
-                               {"tablecloth", 0.4, 2, "same_mesh"}};
+constexpr Ladder kLadders[] = {{"swinging_sheet", 0.4, 0, 3, "converged"},
+                               {"curtain", 1, 1, 2, "same_mesh"},
+                               {"tablecloth", 0.4, 0, 2, "same_mesh"}};
 constexpr int kReferenceLevel = 3;
 
 SweepPlan page_plan(const Ladder& ladder) {
@@ -34,7 +34,7 @@ SweepPlan page_plan(const Ladder& ladder) {
            {{{"/method", {{"stepper", "implicit"}, {"step_s", 1.0 / 60}, {"substeps", 4}}}}})},
       {"duration_s", ladder.duration},
       {"reference", ladder.reference}};
-  for (int level = 0; level <= ladder.finest; ++level)
+  for (int level = ladder.coarsest; level <= ladder.finest; ++level)
     plan["grid"]["/refinement/level"].push_back(level);
   if (plan["reference"] == "converged") plan["reference_level"] = kReferenceLevel;
   return read_sweep_plan(JsonReader(plan),

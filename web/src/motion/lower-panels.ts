@@ -63,11 +63,11 @@ export function createLowerPanels(
   store: Store<MotionState>,
   run: MotionRun,
 ): void {
+  const showChart = createSweepTray(tray, store, run);
+  createSweepPanel(panel, store, createLaterSweep(store), showChart);
   createLevelPanel(panel, store);
   createEnergyPanel(panel, store);
   createLaterContact(panel, store);
   createConvergencePanel(panel, store, run);
-  const showChart = createSweepTray(tray, store, run);
-  createSweepPanel(panel, store, createLaterSweep(store), showChart);
   createKeyList(panel, HAND_KEYS);
 }

@@ -20,6 +20,7 @@ const VIEWS = [
     perRow: 2,
     async show(page) {
       await isReady(page);
+      await page.getByLabel('Cloth to measure').selectOption({ label: 'The scene shown' });
       await page.getByRole('button', { name: 'Measure speed and error' }).click();
       const isSwept = ({ sweep }) => sweep.phase !== 'running' && sweep.rows.length > 0;
       await until(page, isSwept, SWEEP_MS);

@@ -509,6 +509,7 @@ await check(
 
 await check('the sweep fills chart and table, and a click on a point runs it to its time', () =>
   visit('#scene=swinging-sheet&fabric=silk&level=0', async (page) => {
+    await choice(page, 'Cloth to measure').selectOption({ label: 'The scene shown' });
     await choice(page, 'Levels').selectOption({ index: 0 });
     await button(page, 'Measure speed and error').click();
     await page.getByRole('progressbar').waitFor();
@@ -517,10 +518,10 @@ await check('the sweep fills chart and table, and a click on a point runs it to 
     await until(page, (state) => state.sweep.phase !== 'running', SWEEP_MS);
     const { sweep } = await stateOf(page);
     expectThat(sweep.phase === 'done', `the sweep ended as ${sweep.phase}: ${sweep.message}`);
-    expectThat(sweep.rows.length === 14, `${sweep.rows.length} rows`);
+    expectThat(sweep.rows.length === 20, `${sweep.rows.length} rows`);
     const others = sweep.rows.filter((row) => row.status !== 'ok');
     expectThat(others.length === 0, `not ok: ${others.map((row) => row.message).join('; ')}`);
-    expectThat((await page.locator('.rows tbody tr').count()) === 14, 'the table differs');
+    expectThat((await page.locator('.rows tbody tr').count()) === 20, 'the table differs');
     const cut = await page
       .locator('.table-box')
       .evaluate((box) => box.scrollWidth - box.clientWidth);
@@ -563,6 +564,32 @@ await check('a sweep of the swinging sheet as it is tells what its mesh does wro
       `it says: ${answer}`,
     );
     await expectAccessible(page);
+  }),
+);
+
+await check('the first sweep is of the sheet whose errors are known, beside the cloth', () =>
+  visit('', async (page) => {
+    await button(page, 'Measure speed and error').click();
+    await until(page, (state) => state.sweep.phase === 'done', SWEEP_MS);
+    const { sweep } = await stateOf(page);
+    expectThat(sweep.meshError === 'known', `it is ${sweep.meshError}`);
+    expectThat(
+      sweep.rows.some((row) => row.method.stepper === 'multigrid'),
+      'multigrid takes no part',
+    );
+    const near = sweep.front.filter((index) => sweep.rows[index].position_error_m < 0.05);
+    await page.locator(`.point[data-row="${near[0]}"]`).dispatchEvent('click');
+    await isReady(page);
+    const { setting } = await stateOf(page);
+    expectThat(setting.preset === 'swinging-sheet', `the cloth is the ${setting.preset}`);
+    const read = await page.locator('.verdict').textContent();
+    expectThat(/exact motion on a finer mesh/.test(read), `it says: ${read}`);
+    const [stage, plot] = [
+      await page.locator('#stage').boundingBox(),
+      await page.locator('#tray .plot').boundingBox(),
+    ];
+    expectThat(stage.height > 300 && stage.x + stage.width <= plot.x, 'the chart hides the cloth');
+    expectThat(plot.y + plot.height <= 800, 'the chart is cut off');
   }),
 );
 
@@ -674,6 +701,7 @@ await check('once loaded, the page and its sweep work without a network', () =>
     await page.context().setOffline(true);
     await page.reload();
     await isReady(page);
+    await choice(page, 'Cloth to measure').selectOption({ label: 'The scene shown' });
     await choice(page, 'Levels').selectOption({ index: 0 });
     await button(page, 'Measure speed and error').click();
     await until(page, (state) => state.sweep.phase === 'running' && state.sweep.progress > 0);

@@ -71,8 +71,18 @@ describe('error words', () => {
     expect(wordsOf(state)).toMatchObject({ value: '–', detail: 'play to see' });
   });
 
-  it('say that another mesh has its share', () => {
-    expect(against({}, { ...own, level: own.level + 1 }).sentence).toContain('the other mesh');
+  it('say that another mesh has its share, and give no number once folds differ by chance', () => {
+    const sheet = presetSetting('swinging-sheet');
+    const finer = { ...sheet, level: sheet.level + 1 };
+    const early = wordsOf({ time_s: 0.3, reference }, finer);
+    expect(early.sentence).toContain('the other mesh');
+    for (const words of [
+      wordsOf({ time_s: 0.5, reference }, finer),
+      against({}, { ...own, level: own.level + 1 }),
+    ]) {
+      expect(words.value).not.toMatch(/\d/);
+      expect(words.sentence).toContain(`has that of level ${own.level}: choose it`);
+    }
   });
 
   it('name what is left of the equations and of the length where there is no reference', () => {
@@ -95,7 +105,7 @@ describe('error words', () => {
     const sweep = { ...NO_SWEEP, rows: [row], scene: sweptScene(own, null) };
     const words = errorWords({ ...asked, numbers: running, setting: own, sweep });
     expect(words.value).toBe('20 mm');
-    expect(words.sentence).toContain('no converged reference');
+    expect(words.sentence).toContain('no converged reference on its own mesh');
     const unasked = { reference: 'unasked', compare: false } as const;
     expect(
       errorWords({ ...asked, ...unasked, numbers: running, setting: own, sweep }),

@@ -13,8 +13,8 @@ import {
   withModel,
   withStepper,
 } from '../../src/motion/state/setting';
-import { settingOf, sweepPlan } from '../../src/motion/state/sweep-plan';
-import { NO_SWEEP, rowOfSetting, sweptScene } from '../../src/motion/state/sweep-state';
+import { settingOf, sweepPlan, sweptSetting } from '../../src/motion/state/sweep-plan';
+import { NO_SWEEP, rowOfSetting, settingIn, sweptScene } from '../../src/motion/state/sweep-state';
 import { fabricNamed } from '../../src/shared/fabric/fabric-data';
 import { quantityReadings } from '../../src/shared/panels/fabric-quantities';
 import { STEPPER_NAMES } from '../../src/shared/steppers/steppers';
@@ -129,8 +129,9 @@ describe('model', () => {
 });
 
 describe('sweep-plan', () => {
+  const sheet = presetSetting('swinging-sheet');
   const settingsOf = (level: number, finest: number, withSlow = true) =>
-    sweepPlan(start, { finest, withSlow }).settings.filter(
+    sweepPlan(sheet, { finest, withSlow }).settings.filter(
       (one) => one['/refinement/level'] === level,
     );
   const steppersOf = (level: number, withSlow = true) =>
@@ -138,13 +139,13 @@ describe('sweep-plan', () => {
 
   it('leaves out what takes most of the time unless it is asked for', () => {
     expect(steppersOf(0)).toContain('explicit');
-    expect(steppersOf(0, false)).toEqual(new Set(['implicit', 'projective', 'xpbd']));
+    expect(steppersOf(0, false)).toEqual(new Set(['implicit', 'projective', 'xpbd', 'multigrid']));
   });
 
   it('measures every level up to the finest, with every stepper that can keep up', () => {
     expect(settingsOf(3, 3).length).toBeGreaterThan(0);
     expect(settingsOf(4, 3)).toEqual([]);
-    const others = ['implicit', 'projective', 'xpbd'];
+    const others = ['implicit', 'projective', 'xpbd', 'multigrid'];
     for (const level of [0, 1, 2, 3]) {
       const expected = level <= 1 ? [...others, 'explicit'] : others;
       expect(steppersOf(level)).toEqual(new Set(expected));
@@ -152,7 +153,7 @@ describe('sweep-plan', () => {
   });
 
   it('measures a membrane with what can run it', () => {
-    const { scene, settings } = sweepPlan(withModel(start, 'membrane'), {
+    const { scene, settings } = sweepPlan(withModel(sheet, 'membrane'), {
       finest: 1,
       withSlow: false,
     });
@@ -161,6 +162,27 @@ describe('sweep-plan', () => {
       ...['implicit', 'implicit', 'newton', 'newton'],
       ...['implicit', 'implicit', 'newton', 'newton'],
     ]);
+  });
+
+  it('is of the sheet whose errors are all known, or of the shown scene', () => {
+    expect(sweptSetting(start, { finest: 1, withSlow: false })).toEqual(sheet);
+    expect(sweptSetting(start, { finest: 1, withSlow: false, ofShown: true })).toBe(start);
+  });
+
+  it('leaves out the level of the curtain whose nine hooks leave no fold between them', () => {
+    const { settings } = sweepPlan(start, { finest: 2, withSlow: true });
+    expect(new Set(settings.map((one) => one['/refinement/level']))).toEqual(new Set([1, 2]));
+  });
+
+  it('shows a row of another scene as that scene is', () => {
+    const row = rowFor(1, { stepper: 'implicit', step_s: 1 / 60, substeps: 1 });
+    const silk = { ...start, fabric: 'silk', hold: 'nothing' as const };
+    expect(settingIn(sweptScene(sheet, null), row, silk)).toMatchObject({
+      preset: 'swinging-sheet',
+      fabric: sheet.fabric,
+      level: 1,
+      stepper: 'implicit',
+    });
   });
 
   it('gives explicit as many substeps as each level asks for', () => {

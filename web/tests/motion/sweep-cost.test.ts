@@ -6,7 +6,7 @@ import { expectedSweepS } from '../../src/motion/state/sweep-cost';
 import { methodsAt, settingOf } from '../../src/motion/state/sweep-plan';
 
 const shown: Setting = { ...presetSetting('curtain'), level: 1 };
-const wish = { finest: 1, withSlow: false };
+const wish = { finest: 1, withSlow: false, ofShown: true };
 /** Which goes before any work. */
 const START_S = 1.5;
 const measured = withCost({}, shown, 4);
@@ -38,12 +38,18 @@ describe('what a sweep would take', () => {
   });
 
   it('is what the planned methods took themselves, where they were measured', () => {
-    const methods = [0, 1].flatMap((level) =>
+    const methods = [1].flatMap((level) =>
       methodsAt(level, shown.model, false).map((method) => settingOf({ level, method }, shown)),
     );
     const costs = methods.reduce((known, one) => withCost(known, one, 2), measured);
     // Sixty steps, five times and one and a half.
     expect(expected(costs)).toBeCloseTo((methods.length * 60 * 6.5 * 2) / 1000);
+  });
+
+  it('is of another scene in proportion to the shown one, over its own time', () => {
+    const ofSheet = expected(measured, shown, { ...wish, ofShown: false });
+    expect(ofSheet).toBeGreaterThan(0.4 * expected(measured));
+    expect(ofSheet).toBeLessThan(0.6 * expected(measured));
   });
 
   it('has the references in it where none are shipped', () => {

@@ -57,6 +57,7 @@ function serve(module: AllModules) {
 }
 
 const ALL_TO_1 = { finest: 1, withSlow: true };
+const sheet = presetSetting('swinging-sheet');
 const setting: Setting = { ...presetSetting('curtain'), level: 1 };
 const sceneText = (patch: Partial<Setting> = {}) =>
   JSON.stringify(sceneOf({ ...setting, ...patch }));
@@ -376,7 +377,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
 
   it('measures a small sweep: every row with speed, error and reference', async () => {
     const { sweep, posted } = open(await load());
-    const { scene, settings } = sweepPlan(setting, { finest: 0, withSlow: false });
+    const { scene, settings } = sweepPlan(sheet, { finest: 0, withSlow: false });
     const plan = { scene, settings: settings.slice(0, 5), duration_s: 0.1, repeats: 1 };
     sweep(plan);
     const { report } = posted.at(-1) as Sent<'sweepReport'>;
@@ -388,7 +389,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
       expect(row.reference.converged).toBe(true);
       expect(row.ms_per_frame).toBeGreaterThan(0);
       expect(row.position_error_m).toBeGreaterThan(0);
-      expect(settingOf(row, setting).stepper).toBe(row.method.stepper);
+      expect(settingOf(row, sheet).stepper).toBe(row.method.stepper);
       if (_name !== 'the stand-in') expect(row.commit).toMatch(/\S/);
     }
   });
@@ -480,19 +481,19 @@ describe('motion-core', () => {
 
   it('runs a sweep to its end, with growing rows', () => {
     const { sweep, posted } = serve(createFakeModule().module);
-    sweep(sweepPlan(setting, ALL_TO_1));
+    sweep(sweepPlan(sheet, ALL_TO_1));
     const [planned, ...sent] = posted;
     expect(planned).toEqual({ type: 'planned', references: ['converged', 'own-0'] });
     const reports = sent.map((message) => (message as Sent<'sweepReport'>).report);
     expect(reports.map((report) => report.rows.length)).toEqual(
-      Array.from({ length: 16 }, (_, index) => index + 1),
+      Array.from({ length: 22 }, (_, index) => index + 1),
     );
-    expect(reports.map((report) => report.done).indexOf(true)).toBe(15);
+    expect(reports.map((report) => report.done).indexOf(true)).toBe(21);
   });
 
   it('refuses a sweep with the reason of the module', () => {
     const { sweep, take } = serve(createFakeModule().module);
-    const { scene } = sweepPlan(setting, { finest: 0, withSlow: false });
+    const { scene } = sweepPlan(sheet, { finest: 0, withSlow: false });
     sweep({ scene, settings: [] });
     expect(take('refused').failure.where).toBe('/settings');
   });
@@ -502,7 +503,7 @@ describe('motion-core', () => {
     const { send, sweep, core } = serve(module);
     send({ type: 'open', fabricsText });
     send({ type: 'open', fabricsText });
-    sweep(sweepPlan(setting, ALL_TO_1));
+    sweep(sweepPlan(sheet, ALL_TO_1));
     await read(module, 'two.obj', objText(false));
     expect(alive()).toBe(1);
     core.close();
@@ -526,7 +527,7 @@ describe('motion-core with a module that lacks CHOLMOD', () => {
 
   it('sweeps with Eigen, in the reference and in projective, and its rows can be applied', () => {
     const { send, sweep, take, posted } = open(module);
-    sweep(sweepPlan(setting, ALL_TO_1));
+    sweep(sweepPlan(sheet, ALL_TO_1));
     const { rows } = (posted.at(-1) as Sent<'sweepReport'>).report;
     expect(rows.every((row) => row.reference.description === 'implicit with eigen')).toBe(true);
     const projective = rows.filter((row) => row.method.stepper === 'projective');

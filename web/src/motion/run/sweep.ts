@@ -9,10 +9,10 @@ import {
   hasFinished,
   type ReferenceKind,
   type SweepWish,
-  settingOf,
   sweepPlan,
+  sweptSetting,
 } from '../state/sweep-plan';
-import { type SweepState, sweptScene } from '../state/sweep-state';
+import { type SweepState, settingIn, sweptScene } from '../state/sweep-state';
 import type { FromSweep } from '../worker/sweep-protocol';
 import { type StartSweep, type SweepClient, startSweepWorker } from './measuring-client';
 import { planSweep } from './sweep-references';
@@ -21,7 +21,7 @@ import { planSweep } from './sweep-references';
 const FRAMES_PER_S = 60;
 
 export interface Sweep {
-  /** Measures the shown scene. */
+  /** Measures the scene that is wished for. */
   start(wish: SweepWish): void;
   /** Ends at once; the rows so far stay. */
   cancel(): void;
@@ -60,9 +60,9 @@ export function createSweep(
   function keepCosts(rows: readonly BenchRow[]): void {
     const { sweep, setting, costs } = store.get();
     if (!sweep.scene || sweep.disturbed) return;
-    const { mesh: _mesh, ...swept } = sweep.scene;
+    const { scene } = sweep;
     const add = (known: StepCosts, row: BenchRow) => {
-      const measured = settingOf(row, { ...setting, ...swept });
+      const measured = settingIn(scene, row, setting);
       const ms = row.ms_per_frame === null ? 0 : row.ms_per_frame * measured.stepS * FRAMES_PER_S;
       return hasFinished(row) && ms > 0 ? withCost(known, measured, ms) : known;
     };
@@ -70,7 +70,8 @@ export function createSweep(
   }
 
   async function measure(own: SweepClient, wish: SweepWish): Promise<void> {
-    const { setting, mesh } = store.get();
+    const { setting: shown, mesh } = store.get();
+    const setting = sweptSetting(shown, wish);
     const planOf = (reference: ReferenceKind) => sweepPlan(setting, wish, mesh, reference);
     const planned = planSweep(own, planOf);
     const meshError = await answerOf(planned, (failure) => end('failed', failure.what));
@@ -103,7 +104,7 @@ export function createSweep(
           meshError: 'unshipped',
           rows: [],
           front: [],
-          scene: sweptScene(setting, mesh),
+          scene: sweptScene(sweptSetting(setting, wish), mesh),
           disturbed: false,
         },
       });

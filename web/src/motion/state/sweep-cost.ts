@@ -10,6 +10,7 @@ import {
   type SweepWish,
   settingOf,
   sweptLevels,
+  sweptSetting,
 } from './sweep-plan';
 
 /** Substeps that stand for as many as the stability bound asks for. */
@@ -28,7 +29,10 @@ function workOf({ stepper, substeps, iterations }: Setting): number {
   return substep_work * rounds * (substeps === 0 ? STABLE_SUBSTEPS : substeps);
 }
 
-/** Time of a step of a planned setting [ms], in proportion to the shown one where it was never run. */
+/**
+ * Time of a step of a planned setting [ms], in proportion to the shown one where it was never run. The scenes have
+ * meshes of about as many vertices at a level.
+ */
 function stepMs(costs: StepCosts, planned: Setting, shown: Setting): number | null {
   const own = stepCostAt(costs, planned, planned.level);
   if (own) return own.ms;
@@ -47,27 +51,29 @@ function finestShipped({ preset, fabric, model }: Setting): number {
 
 /** Every level's own reference, where none is shipped [ms]. */
 function referencesMs(costs: StepCosts, shown: Setting, wish: SweepWish): number | null {
-  const exact = { ...shown, stepper: 'newton', stepS: 1 / 960, substeps: 1 };
+  const swept = sweptSetting(shown, wish);
+  const exact = { ...swept, stepper: 'newton', stepS: 1 / 960, substeps: 1 };
   let sum = 0;
-  const shipped = finestShipped(shown);
-  for (const level of sweptLevels(shown, wish).filter((one) => one > shipped)) {
+  const shipped = finestShipped(swept);
+  for (const level of sweptLevels(swept, wish).filter((one) => one > shipped)) {
     const ms = stepMs(costs, { ...exact, level }, shown);
     if (ms === null) return null;
-    sum += ms * REFERENCE_STEPS_PER_S * durationS(shown);
+    sum += ms * REFERENCE_STEPS_PER_S * durationS(swept);
   }
   return sum;
 }
 
-/** Seconds for a sweep of the shown scene; null while no step of it was timed. */
+/** Seconds for a sweep that is wished for; null while no step of the shown scene was timed. */
 export function expectedSweepS(costs: StepCosts, shown: Setting, wish: SweepWish): number | null {
   const references = referencesMs(costs, shown, wish);
   if (references === null) return null;
+  const swept = sweptSetting(shown, wish);
   let sum = references;
-  for (const level of sweptLevels(shown, wish)) {
-    for (const method of methodsAt(level, shown.model, wish.withSlow)) {
-      const ms = stepMs(costs, settingOf({ level, method }, shown), shown);
+  for (const level of sweptLevels(swept, wish)) {
+    for (const method of methodsAt(level, swept.model, wish.withSlow)) {
+      const ms = stepMs(costs, settingOf({ level, method }, swept), shown);
       if (ms === null) return null;
-      sum += (ms * durationS(shown) * (FIRST_ROUND + REPEATS)) / method.step_s;
+      sum += (ms * durationS(swept) * (FIRST_ROUND + REPEATS)) / method.step_s;
     }
   }
   return START_S + sum / 1000;

@@ -9,7 +9,14 @@ import {
 } from '../../shared/steppers/steppers';
 import type { BenchMethod, BenchRow } from '../bindings/sweep-module';
 import type { ObjMesh } from './obj-mesh';
-import { detailsOf, levelsOf, type PresetId, type Setting, sceneOf } from './setting';
+import {
+  detailsOf,
+  levelsOf,
+  type PresetId,
+  presetSetting,
+  type Setting,
+  sceneOf,
+} from './setting';
 
 export interface PlannedMethod {
   stepper: string;
@@ -26,6 +33,11 @@ const BEFORE_CHANCE_S: Partial<Record<PresetId, number>> = {
   'swinging-sheet': 0.4,
   tablecloth: 0.4,
 };
+
+/** Time up to which a scene's motion on one mesh can be compared with that on another [s]; 0 where nothing tells. */
+export function comparableS({ preset }: Pick<Setting, 'preset'>): number {
+  return BEFORE_CHANCE_S[preset] ?? 0;
+}
 
 /** Time over which a sweep compares the motion of a scene [s]. */
 export function durationS({ preset }: Pick<Setting, 'preset'>): number {
@@ -66,6 +78,12 @@ export const FINEST_SHIPPED: Partial<Record<PresetId, number>> = {
   'swinging-sheet': 3,
 };
 
+/** The scene whose exact motion on a finer mesh is shipped: what each mesh does wrong is known of it alone. */
+export const KNOWN_PRESET: PresetId = 'swinging-sheet';
+
+/** Coarsest levels that are a setting: nine hooks on the curtain's first nine vertices leave no fold between them. */
+const COARSEST: Partial<Record<PresetId, number>> = { curtain: 1 };
+
 /** The finest level that a sweep is offered for. */
 export const FINEST_SWEEP = 3;
 
@@ -94,17 +112,25 @@ export const SURER = 4;
 
 /** A visitor's wish for a sweep. */
 export interface SweepWish {
-  /** Measures levels 0 to this one. */
+  /** Measures the levels up to this one. */
   finest: number;
   withSlow: boolean;
+  /** Measures the scene that is shown; else the one of which all errors are known. */
+  ofShown?: boolean;
+}
+
+/** The setting of which a sweep takes the scene. */
+export function sweptSetting(shown: Setting, { ofShown }: SweepWish): Setting {
+  return ofShown ? shown : presetSetting(KNOWN_PRESET);
 }
 
 /** The levels that a sweep measures of those that the scene has. */
 export function sweptLevels({ preset }: Pick<Setting, 'preset'>, { finest }: SweepWish): number[] {
-  return levelsOf(preset).filter((level) => level <= finest);
+  const coarsest = COARSEST[preset] ?? 0;
+  return levelsOf(preset).filter((level) => level >= coarsest && level <= finest);
 }
 
-/** Levels 0 to `finest` of the shown scene, each with every method that takes part. */
+/** The levels of a setting's scene up to `finest`, each with every method that takes part. */
 export function sweepPlan(
   setting: Setting,
   wish: SweepWish,

@@ -1,7 +1,7 @@
 // A sweep as far as it has come, and which of its rows are of the shown cloth.
 import type { BenchRow } from '../bindings/sweep-module';
 import type { ObjMesh } from './obj-mesh';
-import { isSameMethod, type Setting } from './setting';
+import { isSameMethod, presetSetting, type Setting } from './setting';
 import { hasFinished, settingOf } from './sweep-plan';
 
 /**
@@ -54,6 +54,13 @@ function isOf(swept: SweptScene | null, shown: SweptScene): boolean {
     swept !== null &&
     (Object.keys(shown) as (keyof SweptScene)[]).every((key) => swept[key] === shown[key])
   );
+}
+
+/** The setting of a row of that scene; what the row does not name stays as it is in the shown one. */
+export function settingIn(scene: SweptScene, row: BenchRow, shown: Setting): Setting {
+  const { mesh: _mesh, ...swept } = scene;
+  const rest = swept.preset === shown.preset ? shown : presetSetting(swept.preset);
+  return settingOf(row, { ...rest, ...swept });
 }
 
 /** The row of the last sweep that was measured with just the shown setting, if there is one. */

@@ -5,8 +5,8 @@ import { digits, percent, smallLength } from '../../../shared/panels/quantity';
 import { stepperRow } from '../../../shared/steppers/steppers';
 import { referenceUrl } from '../../run/references';
 import { type MotionState, wantsReference } from '../../state/motion-state';
-import { presetSetting } from '../../state/setting';
-import { SURER } from '../../state/sweep-plan';
+import { presetSetting, type Setting } from '../../state/setting';
+import { comparableS, SURER } from '../../state/sweep-plan';
 import { rowOfSetting } from '../../state/sweep-state';
 
 export interface ErrorWords {
@@ -24,6 +24,13 @@ type ErrorState = Pick<
 
 /** Less than this is left of the equations: nothing but rounding. */
 const EXACT_RESIDUAL = 1e-8;
+
+/** Words on a cloth that has not the mesh of its reference, from when on their folds differ by chance. */
+function fromOtherMesh({ preset }: Pick<Setting, 'preset'>): ErrorWords {
+  const { level } = presetSetting(preset);
+  const sentence = `Folds fall otherwise on every mesh, and the reference has that of level ${level}: choose it to compare.`;
+  return { value: '–', detail: `known at level ${level}`, sentence };
+}
 
 /** `isOwnMesh`: the cloth has the mesh of the reference. */
 function fromReference(reference: ReferenceNumbers, isOwnMesh: boolean): ErrorWords {
@@ -86,7 +93,8 @@ function fromSweep(state: ErrorState): ErrorWords | null {
   if (!row || row.position_error_m === null) return null;
   const value = smallLength(row.position_error_m);
   const { converged } = row.reference;
-  const than = converged ? 'a converged reference' : 'a fine run that is no converged reference';
+  const exact = converged ? 'the exact motion' : 'a fine run that is no converged reference';
+  const than = `${exact} on ${state.sweep.meshError === 'known' ? 'a finer mesh' : 'its own mesh'}`;
   const detail = converged ? 'in the sweep' : 'by a rough reference';
   return { value, detail, sentence: `In the sweep it was ${value} from ${than}.` };
 }
@@ -102,6 +110,8 @@ export function errorWords(state: ErrorState): ErrorWords {
     return { value: '–', detail: 'play to see', sentence };
   }
   const isOwnMesh = setting.level === presetSetting(setting.preset).level;
+  if (numbers.reference && !isOwnMesh && numbers.time_s > comparableS(setting))
+    return fromOtherMesh(setting);
   if (numbers.reference) return fromReference(numbers.reference, isOwnMesh);
   const sentence = fromItself(numbers, stepperRow(setting.stepper).solves);
   return inSweep ?? { value: 'unknown', detail: 'run a sweep', sentence };

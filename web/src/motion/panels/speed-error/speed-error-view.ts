@@ -8,8 +8,8 @@ import type { BenchRow } from '../../bindings/sweep-module';
 import type { MotionRun } from '../../run/motion-run';
 import type { MotionState } from '../../state/motion-state';
 import { PRESETS } from '../../state/setting';
-import { durationS, hasFinished, settingOf } from '../../state/sweep-plan';
-import { rowOfSetting, type SweepState } from '../../state/sweep-state';
+import { durationS, hasFinished } from '../../state/sweep-plan';
+import { rowOfSetting, type SweepState, settingIn } from '../../state/sweep-state';
 import { legendItem, markOf } from '../chart/stepper-mark';
 import { errorSentence, headline, methodSentence } from './mesh-words';
 import { CROSS, createSpeedErrorPlot, isNonsense, type PlotContent } from './speed-error-plot';
@@ -88,11 +88,12 @@ export function createSpeedErrorView(
     const { sweep, setting } = store.get();
     const row = sweep.rows[index];
     if (!row || !sweep.scene) return;
-    const { mesh, ...swept } = sweep.scene;
-    const measured = settingOf(row, { ...setting, ...swept });
+    const { mesh } = sweep.scene;
+    const measured = settingIn(sweep.scene, row, setting);
     const startSteps = Math.round(durationS(measured) / measured.stepS);
     const content = { setting: measured, startSteps, invited: false };
     actions.showAnew(mesh ? { ...content, mesh } : content);
+    parent.parentElement?.querySelector('.stage')?.scrollIntoView({ block: 'nearest' });
   }
 
   const heading = element('h2');

@@ -6,9 +6,15 @@ import { type Store, watch } from '../../../shared/state/store';
 import type { Model } from '../../../shared/steppers/steppers';
 import type { Sweep } from '../../run/sweep';
 import type { MotionState } from '../../state/motion-state';
-import { levelsOf } from '../../state/setting';
+import { levelsOf, PRESETS } from '../../state/setting';
 import { expectedSweepS } from '../../state/sweep-cost';
-import { FINEST_SWEEP, type SweepWish, slowSteppers } from '../../state/sweep-plan';
+import {
+  FINEST_SWEEP,
+  KNOWN_PRESET,
+  type SweepWish,
+  slowSteppers,
+  sweptSetting,
+} from '../../state/sweep-plan';
 import type { SweepState } from '../../state/sweep-state';
 
 /** Finest level of a sweep to begin with: the quickest. */
@@ -16,10 +22,16 @@ const FIRST_FINEST = 1;
 
 /** Finest level of a sweep. */
 const FINEST = [
-  { value: 1, title: '0 to 1' },
-  { value: 2, title: '0 to 2' },
-  { value: FINEST_SWEEP, title: `0 to ${FINEST_SWEEP}` },
+  { value: 1, title: 'up to 1' },
+  { value: 2, title: 'up to 2' },
+  { value: FINEST_SWEEP, title: `up to ${FINEST_SWEEP}` },
 ];
+
+/** Scenes that a sweep can be of. */
+const SCENES = [
+  { value: 'known', title: `${PRESETS[KNOWN_PRESET].title}: all errors known` },
+  { value: 'shown', title: 'The scene shown' },
+] as const;
 
 /** Choices that take part only when they are asked for. */
 function slowPicker(onChange: (withSlow: boolean) => void) {
@@ -69,7 +81,12 @@ export function createSweepPanel(
   sweep: Sweep,
   showChart: () => void,
 ): void {
-  const wish: SweepWish = { finest: FIRST_FINEST, withSlow: false };
+  const wish: SweepWish = { finest: FIRST_FINEST, withSlow: false, ofShown: false };
+  const scenes = choice(SCENES, (scene) => {
+    wish.ofShown = scene === 'shown';
+    showWish(store.get());
+  });
+  scenes.select('known');
   const levels = choice(FINEST, (level) => {
     wish.finest = level;
     showExpectation(store.get());
@@ -97,8 +114,9 @@ export function createSweepPanel(
     parent,
     'Speed and error',
     noteLine(
-      'How fast, how wrong? Runs this scene with the steppers at several levels, on this device, and compares each with a fine reference.',
+      'How fast, how wrong? Runs a scene with several methods at several levels, on this device, and compares each with a fine reference.',
     ),
+    field('Cloth to measure', scenes.control),
     levelsField,
     slow.line,
     expected,
@@ -108,14 +126,18 @@ export function createSweepPanel(
     message,
     open,
   );
+  function showWish(state: MotionState): void {
+    const { preset, model } = sweptSetting(state.setting, wish);
+    slow.show(model);
+    levelsField.hidden = levelsOf(preset).length === 1;
+    showExpectation(state);
+  }
   function showExpectation(state: MotionState): void {
     expected.hidden = state.sweep.phase === 'running';
     setText(expected, expectation(state, wish));
   }
   watch(store, ['sweep', 'phase', 'setting', 'costs'], (state) => {
-    slow.show(state.setting.model);
-    levelsField.hidden = levelsOf(state.setting.preset).length === 1;
-    showExpectation(state);
+    showWish(state);
     const { phase } = state.sweep;
     const isRunning = phase === 'running';
     start.hidden = isRunning;
