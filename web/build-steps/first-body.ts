@@ -3,13 +3,13 @@
 import { readFileSync } from 'node:fs';
 import type { Plugin } from 'vite';
 import type { RefinementModule } from '../src/refinement/bindings/refinement-module.ts';
-import { START_S } from '../src/refinement/state/garment-frames.ts';
+import { FIRST_PICTURE } from '../src/refinement/state/garment-frames.ts';
 import { builtCore } from './built-core.ts';
 
 const NAME = 'virtual:pleat-body';
 const ASSETS = new URL('../../assets/', import.meta.url);
 const FOLDER = 'scenes/garments/';
-const SCENE = 'skirt_fast_walk.json';
+const SCENE = `${FIRST_PICTURE.garment}_${FIRST_PICTURE.motion}.json`;
 
 /** Digits of a length [m] that can be seen. */
 const DIGITS = 4;
@@ -24,7 +24,7 @@ async function solidsAtStart(): Promise<unknown> {
   const files = Object.fromEntries(named.map((name) => [name, textOf(FOLDER + name)]));
   const { ok, message } = JSON.parse(run.load(JSON.stringify(scene), files));
   if (!ok) throw new Error(`${SCENE}: ${message}`);
-  run.put(run.positions().slice(), START_S);
+  run.put(run.positions().slice(), FIRST_PICTURE.startS);
   const { cones, pelvis_m } = JSON.parse(run.solids());
   run.delete();
   return { cones, pelvis_m };

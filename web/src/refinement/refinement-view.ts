@@ -12,10 +12,13 @@ import { createKeyList, type Keys } from '../shared/panels/keys-panel';
 import { openStage } from '../shared/panels/open-stage';
 import { objText, save } from '../shared/panels/saving';
 import { createStageCanvas } from '../shared/panels/stage-canvas';
+import { roundedUp } from '../shared/stage/colormap';
 import { createLinkWriter } from '../shared/state/link-writer';
 import { createStore, type Store, watch } from '../shared/state/store';
 import type { SolidsAnswer } from './bindings/refinement-module';
+import { createAnswer } from './panels/answer';
 import { createDetailPanel } from './panels/detail-panel';
+import { createFitLight } from './panels/fit-light';
 import { createFitPanel } from './panels/fit-panel';
 import { createGarmentBadges } from './panels/garment-badges';
 import { createGarmentLegend } from './panels/garment-legend';
@@ -29,14 +32,17 @@ import { createWork } from './panels/work';
 import type { ShownFrame } from './run/pane-set';
 import { Trio } from './run/trio';
 import { GarmentStage } from './stage/garment-stage';
+import { createFaceDistances, type FaceDistances } from './state/face-distances';
 import { decodeRefinementLink, encodeRefinementLink } from './state/refinement-link';
 import {
   comparedPanes,
   initialRefinementState,
+  isComputedHere,
   PANES,
   type PaneId,
   type RefinementState,
   shownPanes,
+  showsFineCloth,
 } from './state/refinement-state';
 import type { GarmentMesh } from './worker/garment-protocol';
 
@@ -54,15 +60,25 @@ const KEYS: Keys = [
 /** Least width of a pane: in a narrower one a person is too small to compare folds [CSS pixels]. */
 const LEAST_PANE_WIDTH = 180;
 
+/** Distances of a mesh's faces [m], `none` where there is nothing to tell, null where only vertices have some. */
+type Distances = Float32Array | 'none' | null;
+
 /** The picture of the three panes, all of one store. */
 class Picture {
   stage: GarmentStage | null = null;
   readonly meshes: Partial<Record<PaneId, GarmentMesh>> = {};
+  /** Functions of the faces' distances from fine; null for a mesh that fine does not refine. */
+  private readonly measures = new Map<PaneId, FaceDistances | null>();
+  /** The faces' distances in the frames that are shown. */
+  private readonly distances = new Map<PaneId, Distances>();
 
   constructor(private readonly store: Store<RefinementState>) {}
 
   showMesh(id: PaneId, mesh: GarmentMesh): void {
     this.meshes[id] = mesh;
+    if (id === 'fine') this.measures.clear();
+    else this.measures.delete(id);
+    this.distances.clear();
     this.stage?.setMesh(PANES.indexOf(id), mesh);
     this.repaint(this.store.get(), id);
   }
@@ -70,7 +86,10 @@ class Picture {
   showFrames(frames: ShownFrame[], solids: SolidsAnswer | null): void {
     for (const { pane, buffer } of frames) this.stage?.showFrame(PANES.indexOf(pane), buffer);
     if (solids) this.stage?.setSolids(solids);
-    this.widenScale();
+    this.distances.clear();
+    this.fitScale();
+    const state = this.store.get();
+    if (state.colour === 'distance') for (const { pane } of frames) this.repaint(state, pane);
   }
 
   /** Opens the stage where the browser can draw it. */
@@ -130,17 +149,52 @@ class Picture {
 
   private repaint(state: RefinementState, id: PaneId): void {
     const mesh = this.meshes[id];
-    const paint = mesh && paintOf(state, mesh, state.plan, id === 'fine');
+    const paint = mesh && paintOf(state, mesh, state.plan, this.distancesOf(id));
     if (paint) this.stage?.setPaint(PANES.indexOf(id), paint);
   }
 
-  /** The scale of a quantity reaches as far as any pane's values did, and does not shrink. */
-  private widenScale(): void {
-    const { colour, ranges } = this.store.get();
+  /** Distances of a pane's faces from the fine cloth as both are shown. */
+  private distancesOf(id: PaneId): Distances {
+    const known = this.distances.get(id);
+    if (known !== undefined) return known;
+    const measured = this.measured(id);
+    this.distances.set(id, measured);
+    return measured;
+  }
+
+  private measured(id: PaneId): Distances {
+    const [mesh, { fine }, state] = [this.meshes[id], this.meshes, this.store.get()];
+    const [own, places] = [this.placesOf(id), this.placesOf('fine')];
+    const isInStep = state.panes.fine.source !== 'resting';
+    if (id === 'fine' || !mesh || !fine || !isInStep || own.length * places.length === 0)
+      return 'none';
+    if (!this.measures.has(id)) this.measures.set(id, createFaceDistances(mesh, fine));
+    const measure = this.measures.get(id);
+    if (measure) return measure(own, places);
+    // Vertices of a sample are on the fine cloth: they tell nothing of the faces.
+    return showsFineCloth(state) || state.panes[id].source === 'sampled' ? 'none' : null;
+  }
+
+  private placesOf(id: PaneId): Float32Array {
+    return this.stage?.positions(PANES.indexOf(id)) ?? new Float32Array(0);
+  }
+
+  /** What the colours of a pane show of each face or vertex. */
+  private valuesOf(id: PaneId, colour: 'curvature' | 'distance'): Float32Array {
+    const ofFaces = colour === 'distance' ? this.distancesOf(id) : null;
+    if (ofFaces === 'none') return new Float32Array(0);
+    return ofFaces ?? this.stage?.scalars(PANES.indexOf(id)) ?? new Float32Array(0);
+  }
+
+  /** The scale of a quantity reaches as far as any pane's values do. It does not shrink while it plays. */
+  private fitScale(): void {
+    const state = this.store.get();
+    const { colour, ranges, playing } = state;
     if (colour !== 'curvature' && colour !== 'distance') return;
-    const values = PANES.map((_, pane) => this.stage?.scalars(pane) ?? new Float32Array(0));
-    const most = Math.max(...values.map(upperEnd));
-    if (most > ranges[colour]) this.store.set({ ranges: { ...ranges, [colour]: most } });
+    const ends = comparedPanes(state).map((id) => upperEnd(this.valuesOf(id, colour)));
+    const most = roundedUp(Math.max(...ends));
+    const fits = playing ? most <= ranges[colour] : most === 0 || most === ranges[colour];
+    if (!fits) this.store.set({ ranges: { ...ranges, [colour]: most } });
   }
 }
 
@@ -173,7 +227,9 @@ function createPanels(
   trio: Trio,
   picture: Picture,
 ): void {
+  createAnswer(badgeBox, store);
   createGarmentBadges(badgeBox, store);
+  createFitLight(badgeBox, store);
   const stageWork = element('div', { class: 'stage-work' });
   pictureBox.append(stageWork);
   createWork(stageWork, store, trio, ({ canCancel }) => !canCancel);
@@ -225,11 +281,12 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
   });
   createPanels(boxes, store, trio, picture);
 
-  /** The link starts at the shown time, while that rests. */
+  /** The link starts at the shown time, while that rests; a run that is computed here always at its beginning. */
   const link = () => {
     const state = store.get();
-    const isAtTime = state.phase === 'ready' && !state.playing && state.timeS > 0;
-    return `#${encodeRefinementLink({ ...state, startS: isAtTime ? state.timeS : state.startS })}`;
+    const isAtTime = state.phase === 'ready' && !state.playing;
+    const timeS = isComputedHere(state) ? 0 : state.timeS;
+    return `#${encodeRefinementLink({ ...state, startS: isAtTime ? timeS : state.startS })}`;
   };
   /** Pane of a mesh that is in step, from left to right. */
   const paneAt = (place: number) => {

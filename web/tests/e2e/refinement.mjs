@@ -39,23 +39,95 @@ export async function checkRefinement(harness) {
     'refinement: ',
   );
 
-  await check('refinement: starts still in the middle of a walk, and tells what it buys', () =>
+  await check('refinement: starts still, on a picture in which finer is better, and says so', () =>
     visit('#view=refinement', async (page) => {
-      const { panes, timeS, playing } = await stateOf(page);
-      expectThat(timeS > 1 && !playing, `at ${timeS} s, playing: ${playing}`);
-      const counts = [panes.coarse, panes.planned, panes.fine].map(({ nVertices }) => nVertices);
+      const { panes, playing } = await until(page, ({ panes: all }) => all.fine.faults !== null);
+      expectThat(!playing, 'it plays unasked');
+      const shown = [panes.coarse, panes.planned, panes.fine];
+      const counts = shown.map(({ nVertices }) => nVertices);
       expectThat(counts[0] < counts[1] && 2 * counts[1] < counts[2], `vertices: ${counts}`);
+      const off = shown.map(({ distanceM }) => distanceM);
+      expectThat(off[1] <= 0.5 * off[0] && off[2] === null, `off fine: ${off} m`);
+      const through = shown.map(({ faults }) => faults.n_crossings);
+      expectThat(
+        through.every((n) => n === 0),
+        `edges through the cloth: ${through}`,
+      );
       expectThat((await countColours(await picture(page))) > 300, 'the picture is blank');
       const text = await page.locator('#refinement').textContent();
       expectThat(text.includes(`${counts[2]}`) && /faces were split/.test(text), 'no story');
-      const badges = page.locator('.garment-panes');
-      await eventually(
-        async () => /\d mm of shape lost/.test(await badges.textContent()),
-        'an error in a badge',
-      );
+      // The sentence, the badges and the scale tell one quantity.
+      const answer = await page.locator('.garment-answer').textContent();
+      const badges = await page.locator('.garment-badge').allTextContents();
+      for (const [id, badge] of [
+        ['coarse', badges[0]],
+        ['planned', badges[2]],
+      ]) {
+        const [, length] = /([\d.]+) mm off fine/.exec(badge) ?? [];
+        expectThat(length && answer.includes(`${length} mm`), `${id}: ${badge}; ${answer}`);
+      }
+      expectThat(/off the fine/.test(await page.locator('.garment-legend').textContent()), 'scale');
       const before = await positionsOf(page);
       await page.waitForTimeout(300);
       expectThat(largestMove(before, await positionsOf(page)) === 0, 'the cloth moves unasked');
+    }),
+  );
+
+  await check('refinement: the time can be moved by keys, and what is tangled is called so', () =>
+    visit('#view=refinement', async (page) => {
+      const slider = page.getByRole('slider', { name: 'Time', exact: true });
+      await slider.focus();
+      const before = await picture(page);
+      await page.keyboard.press('PageUp');
+      const { timeS } = await until(page, (state) => state.timeS > 0.3);
+      await page.keyboard.press('ArrowRight');
+      await until(page, (state) => state.timeS > 0.33);
+      await expectOtherPicture(page, before);
+      const words = await slider.getAttribute('aria-valuetext');
+      expectThat(/^\d\.\d\d s of 5 s$/.test(words), `${timeS}: ${words}`);
+      await slider.fill('90');
+      await until(page, (state) => state.timeS === 3 && state.panes.fine.faults?.n_crossings > 0);
+      await eventually(
+        async () =>
+          /passes through itself/.test(await page.locator('.garment-answer').textContent()),
+        'the tangle is told',
+      );
+      await eventually(
+        () => page.evaluate(() => window.location.hash.includes('start=3')),
+        'the address has the time',
+      );
+    }),
+  );
+
+  await check('refinement: a worker that ends is noticed, told, and started again', () =>
+    visit('#view=refinement&start=1', async (page) => {
+      const workers = page.workers();
+      expectThat(workers.length >= 3, `${workers.length} workers`);
+      await workers[1].evaluate(() => self.close());
+      await eventually(
+        async () => (await stateOf(page)).problem !== null,
+        'the end is noticed while nothing is asked',
+      );
+      await isReady(page);
+      const sentence = await alertText(page);
+      expectThat(/ended by itself at 1\.00 s .*started again/.test(sentence), sentence);
+      await button(page, 'Play').click();
+      await until(page, (state) => state.timeS > 1.1);
+    }),
+  );
+
+  await check('refinement: a link to a time that nobody recorded says where it starts', () =>
+    visit('#view=refinement&motion=walk&start=3&fine=off', async (page) => {
+      const sentence = await alertText(page);
+      expectThat(/3\.00 s cannot be shown at once.*from 0\.00 s/.test(sentence), sentence);
+      await eventually(
+        () => page.evaluate(() => window.location.hash.includes('start=0')),
+        'the address says so too',
+      );
+      await eventually(
+        async () => !(await page.locator('.time-slider').filter({ visible: true }).count()),
+        'no time can be chosen where it has to be computed',
+      );
     }),
   );
 
@@ -105,7 +177,7 @@ export async function checkRefinement(harness) {
   );
 
   await check('refinement: every mesh shows the fine cloth when asked, and its own again', () =>
-    visit('#view=refinement&beside=even&edges=off&colour=material', async (page) => {
+    visit('#view=refinement&beside=even&edges=off&colour=material&start=3', async (page) => {
       const isNumbered = ({ panes }) => panes.planned.foldsM !== null;
       await until(page, isNumbered, LOAD_MS);
       const own = [await positionsOf(page, 0), await positionsOf(page, 1)];
@@ -189,7 +261,7 @@ export async function checkRefinement(harness) {
       const legend = page.locator('.garment-legend');
       const words = { Level: /coarse face/, Pattern: /1\/m/, Curvature: /1\/m/ };
       const pictures = [];
-      for (const [colour, unit] of Object.entries({ ...words, 'Distance to fine': /mm/ })) {
+      for (const [colour, unit] of Object.entries({ ...words, 'Distance from fine': /mm/ })) {
         await choice(page, 'Colour shows').selectOption(colour);
         await eventually(
           async () => unit.test((await legend.textContent()).replaceAll('\u202f', ' ')),
@@ -211,6 +283,8 @@ export async function checkRefinement(harness) {
         async () => /Does not fit/.test(await page.locator('.fit-title').textContent()),
         'the light says so',
       );
+      const words = await page.locator('.fit-detail').textContent();
+      expectThat(/Changed: motion \(squat\).*10 frames in a row/.test(words), `it says: ${words}`);
       const anew = button(page, 'Plan anew with this motion too');
       await anew.focus();
       await page.keyboard.press('Enter');
@@ -224,7 +298,7 @@ export async function checkRefinement(harness) {
   await check(
     'refinement: an even mesh of as many vertices loses more; the hem is seen closely',
     () =>
-      visit('#view=refinement&edges=off&colour=material', async (page) => {
+      visit('#view=refinement&edges=off&colour=material&start=3', async (page) => {
         const { timeS } = await stateOf(page);
         await choice(page, 'Uniform mesh beside').selectOption({ index: 1 });
         const { panes } = await until(page, (state) => state.panes.even.lostM > 0, LOAD_MS);
@@ -375,6 +449,7 @@ export async function checkRefinement(harness) {
   const WINDOWS = [
     [720, 450],
     [390, 844],
+    [1280, 800],
     [1440, 900],
   ];
   await checkSizes(
@@ -382,7 +457,8 @@ export async function checkRefinement(harness) {
     '#view=refinement',
     WINDOWS,
     async (page, size) => {
-      await expectInWindow(button(page, 'Play'));
+      for (const seen of [button(page, 'Play'), page.locator('.fit-strip')])
+        await expectInWindow(seen);
       const isOnPicture = await page.evaluate(() => {
         const edge = (selector, end) =>
           [...document.querySelectorAll(selector)].map(

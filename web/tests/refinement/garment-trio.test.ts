@@ -7,6 +7,7 @@ import type { ShownFrame } from '../../src/refinement/run/pane-set';
 import { ExamplePlanner, type Progress, type Wish } from '../../src/refinement/run/planner';
 import { exampleUrls } from '../../src/refinement/run/records';
 import { Trio, type TrioParts } from '../../src/refinement/run/trio';
+import { FIRST_PICTURE } from '../../src/refinement/state/garment-frames';
 import { basePatterns, type PlanFile } from '../../src/refinement/state/plan-file';
 import {
   comparedPanes,
@@ -20,7 +21,12 @@ import type { GarmentMesh, ToGarment } from '../../src/refinement/worker/garment
 import { frameViews } from '../../src/shared/bindings/frame';
 import { createStore, type Store } from '../../src/shared/state/store';
 import { loadModule } from '../support/built-module';
-import { exampleClient, garmentClient, recordBytes } from '../support/garment-workers';
+import {
+  exampleClient,
+  garmentClient,
+  mortalWorkers,
+  recordBytes,
+} from '../support/garment-workers';
 
 let module: RefinementModule;
 beforeAll(async () => {
@@ -282,9 +288,9 @@ describe('trio', () => {
   );
 
   it(
-    'starts still, in the middle of a walk, with errors of both coarser meshes',
+    'shows the middle of a walk, with errors of both coarser meshes',
     async () => {
-      const { settled, meshes, shown } = stand();
+      const { settled, meshes, shown } = stand({ startS: 3 });
       const { panes } = await settled(isReady);
       const sources = comparedPanes(DEFAULT_LINK).map((id) => panes[id].source);
       expect(sources).toEqual(Array(3).fill('recorded'));
@@ -299,6 +305,8 @@ describe('trio', () => {
       // Faces lose less than folds by chance, and on the planned mesh less than on the coarse one.
       expect(planned.lostM).toBeGreaterThan(0.0005);
       expect(planned.lostM).toBeLessThan(coarse.lostM ?? 0);
+      for (const { distanceM, lostM } of [coarse, planned])
+        expect(lostM ?? 1).toBeLessThan(distanceM ?? 0);
       for (const { surfaceM, lostM } of [coarse, planned])
         expect(lostM ?? 1).toBeLessThan(surfaceM ?? 0);
       // All frames of the records count, whichever is shown.
@@ -351,7 +359,7 @@ describe('trio', () => {
   it(
     'shows the fine shape on a new plan at once, and computes it from the start',
     async () => {
-      const { store, trio, settled, shown, questions } = stand();
+      const { store, trio, settled, shown, questions } = stand({ startS: 3 });
       await settled(isReady);
       const before = questions.length;
       store.set({ rule: 'demand', demand: 3 });
@@ -466,7 +474,7 @@ describe('trio', () => {
   it(
     'shows the fine cloth on every mesh for as long as that is wanted',
     async () => {
-      const { store, settled, shown } = stand();
+      const { store, settled, shown } = stand({ startS: 3 });
       const own = await settled(isMeasured);
       const { lostM } = own.panes.planned;
       const ownPlaces = shown.planned;
@@ -519,6 +527,92 @@ describe('trio', () => {
       const state = await settled(({ problem }) => problem !== null);
       expect(state.phase).toBe('ready');
       expect(state.problem?.what).toContain('at least the base mesh');
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'opens on the first picture, and shows any other time at once',
+    async () => {
+      const { trio, settled, shown } = stand();
+      const first = await settled(isMeasured);
+      expect(first).toMatchObject({ problem: null, playing: false });
+      expect(first.timeS).toBeCloseTo(FIRST_PICTURE.startS, 9);
+      const later = stand({ startS: 2 });
+      await later.settled(isMeasured);
+      trio.seek(4.9);
+      trio.seek(1);
+      trio.seek(2); // the last of them counts
+      const { panes, fit } = await settled((now) => now.timeS > 1.9 && now.timeS < 2.1);
+      expect(panes.planned.source).toBe('recorded');
+      await settled(isMeasured);
+      expect(shown).toEqual(later.shown);
+      // The light has seen all up to there, whatever way led there.
+      expect(fit?.n_frames).toBe(61);
+      expect(fit).toEqual(later.store.get().fit);
+      trio.seek(1);
+      const back = await settled((now) => Math.abs(now.timeS - 1) < 1e-6);
+      expect(back.fit?.n_frames).toBe(31);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'says where it starts when a link asks for a time that nobody recorded',
+    async () => {
+      const { settled, trio } = stand({ motion: 'walk', startS: 3, computeFine: false });
+      const { problem, startS, timeS } = await settled(isReady);
+      expect([startS, timeS]).toEqual([0, 0]);
+      expect(problem?.what).toMatch(
+        /^No frames .*3\.00 s cannot be shown at once.* from 0\.00 s on/,
+      );
+      trio.seek(1); // nothing comes of it
+      const ended = stand({ startS: 9 });
+      const state = await ended.settled(isReady);
+      expect(state.startS).toBe(state.endS);
+      expect(state.problem?.what).toBe(
+        'The frames end at 5.00 s, which is shown in place of 9.00 s.',
+      );
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'notices a worker that ends while nothing is asked, and starts again where it was',
+    async () => {
+      const workers = mortalWorkers(module);
+      const { trio, settled, shown } = stand({ startS: 1 }, { start: workers.start });
+      await settled(isMeasured);
+      trio.seek(2);
+      await settled((now) => now.timeS > 1.9 && isMeasured(now));
+      const before = { ...shown };
+      workers.endLast('out of memory.');
+      const again = await settled((now) => isMeasured(now) && now.problem !== null);
+      expect(again.problem?.what).toBe(
+        'The computation ended by itself at 2.00 s (out of memory). It was started again.',
+      );
+      expect(workers.nStarted()).toBe(6);
+      expect(shown).toEqual(before);
+      trio.step();
+      await settled((now) => now.timeS > 2.01);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'gives up when workers end again at once, until somebody resets',
+    async () => {
+      const workers = mortalWorkers(module);
+      const { store, trio, settled } = stand({}, { start: workers.start });
+      await settled(isMeasured);
+      workers.endLast('no room');
+      await settled(() => workers.nStarted() === 6);
+      workers.endLast('no room');
+      const { problem } = await settled(({ phase }) => phase === 'stopped');
+      expect(problem?.what).toMatch(/happened twice\. .* reset to try once more/);
+      trio.reset();
+      expect(store.get().problem).toBeNull();
+      await settled(isMeasured);
     },
     PATIENCE_MS,
   );

@@ -1,13 +1,10 @@
 import { describe, expect, it } from 'vitest';
 import { decodeMotionLink } from '../../src/motion/state/motion-link';
 import { presetSetting } from '../../src/motion/state/setting';
-import type { FitAnswer } from '../../src/refinement/bindings/refinement-module';
 import { garmentSentence } from '../../src/refinement/panels/garment-sentence';
 import {
-  anewSentence,
   costWords,
   errorWords,
-  fitReading,
   fromTo,
   levelsSentence,
   lossSentence,
@@ -17,19 +14,18 @@ import {
   storySentences,
 } from '../../src/refinement/panels/garment-words';
 import { NEUTRAL_COLOUR, paintOf, upperEnd } from '../../src/refinement/panels/paints';
+import type { Fit } from '../../src/refinement/state/fit';
 import type { PlanFile, PlanStory } from '../../src/refinement/state/plan-file';
 import {
-  canPlanAnew,
   DEFAULT_LINK,
   EMPTY_PANE,
   type GarmentPane,
   initialRefinementState,
-  isExample,
   shownPanes,
 } from '../../src/refinement/state/refinement-state';
 import type { GarmentMesh } from '../../src/refinement/worker/garment-protocol';
 import { objText } from '../../src/shared/panels/saving';
-import { linearColour } from '../../src/shared/stage/colormap';
+import { linearColour, MAGNITUDE_MAP } from '../../src/shared/stage/colormap';
 
 const STORY: PlanStory = {
   examples: ['skirt_walk'],
@@ -60,9 +56,10 @@ const PLAN: PlanFile = {
   splits: [],
 };
 
-const FIT: FitAnswer = {
+const FIT: Fit = {
   share: 0.01,
   worst_share: 0.03,
+  lasting_share: 0.01,
   n_in_a_row: 0,
   n_frames: 30,
   fires: false,
@@ -88,7 +85,7 @@ describe('garment-words', () => {
       'computed here',
     );
     expect(costWords({ ...pane, source: 'recorded' }, true)).toBe('fine’s shape on this mesh');
-    expect(errorWords('coarse', { ...pane, lostM: 0.0123 })).toBe('12 mm of shape lost');
+    expect(errorWords('coarse', { ...pane, distanceM: 0.0123 })).toBe('12 mm off fine');
     expect(errorWords('fine', { ...pane, source: 'resting' })).toBe('');
   });
 
@@ -104,41 +101,8 @@ describe('garment-words', () => {
     expect(storySentences(STORY)).toContain('The example walk sorted the coarse');
     const two = { ...STORY, examples: ['skirt_walk', 'skirt_fast_walk in silk'] };
     expect(storySentences(two)).toContain('The examples walk and fast walk in silk each sorted');
-    expect(fitReading(FIT, two).title).toBe('Fits the examples');
     expect(fromTo([1.23, 4.56])).toBe('1.2–4.6');
     expect(fromTo([1.23, 1.231])).toBe('1.2');
-  });
-
-  it('offers a plan anew for a motion that did not fit and is no example', () => {
-    const fired = { ...FIT, fires: true, first_fired: 34 };
-    const squat = { ...STATE, phase: 'ready' as const, motion: 'squat' as const, fit: fired };
-    expect(canPlanAnew(squat)).toBe(true);
-    expect(anewSentence(squat)).toContain('on the fine mesh');
-    expect(canPlanAnew({ ...squat, fit: FIT })).toBe(false);
-    expect(anewSentence({ ...squat, fit: FIT })).toContain('once the light says so');
-    expect(canPlanAnew({ ...squat, phase: 'loading' })).toBe(false);
-    const known = { ...squat, further: ['squat' as const] };
-    expect(canPlanAnew(known)).toBe(false);
-    expect(anewSentence(known)).toContain('already');
-    // The example that comes with the page is of one fabric.
-    const walk = { ...squat, motion: 'walk' as const };
-    expect(isExample(walk)).toBe(true);
-    expect(canPlanAnew({ ...walk, fabric: 'silk' })).toBe(true);
-  });
-
-  it('lights by what the monitor says', () => {
-    expect(fitReading(null, STORY).light).toBe('unknown');
-    expect(fitReading(FIT, null).light).toBe('unknown');
-    expect(fitReading(FIT, STORY)).toMatchObject({ light: 'fits' });
-    expect(fitReading({ ...FIT, share: 0.2, n_in_a_row: 3 }, STORY).detail).toContain('3 of 10');
-    expect(fitReading({ ...FIT, fires: true, first_fired: 34 }, STORY).light).toBe('fires');
-    // A second of motion has to be seen before it is said to fit, not before it is said not to.
-    expect(fitReading({ ...FIT, n_frames: 29 }, STORY)).toMatchObject({ light: 'watching' });
-    expect(fitReading({ ...FIT, n_frames: 12, fires: true, first_fired: 11 }, STORY).light).toBe(
-      'fires',
-    );
-    // Once it has fired the plan stays doubtful.
-    expect(fitReading({ ...FIT, first_fired: 34 }, STORY).light).toBe('fires');
   });
 
   it('says who is computed where, and who waits', () => {
@@ -211,15 +175,20 @@ describe('garment-words', () => {
     expect(shownPanes({ ...even, isNarrow: true, beside: 'rival' })).toEqual(['even', 'fine']);
   });
 
-  it('paints fine grey where the others show their distance to it', () => {
+  it('paints faces by their distance, grey where there is none', () => {
     const mesh = { faces: new Int32Array(14) } as GarmentMesh;
-    const shown = { colour: 'distance' as const, ranges: STATE.ranges };
+    const shown = { colour: 'distance' as const, ranges: { curvature: 0, distance: 0.01 } };
     const grey = linearColour(NEUTRAL_COLOUR);
-    expect(paintOf(shown, mesh, null, true)).toEqual({
+    expect(paintOf(shown, mesh, null, 'none')).toEqual({
       kind: 'faces',
       colours: Float32Array.from([...grey, ...grey]),
     });
-    expect(paintOf(shown, mesh, null, false).kind).toBe('vertices');
+    const { table } = MAGNITUDE_MAP;
+    expect(paintOf(shown, mesh, null, Float32Array.of(0, 0.02))).toEqual({
+      kind: 'faces',
+      colours: Float32Array.from([...table.slice(0, 3), ...table.slice(-3)]),
+    });
+    expect(paintOf(shown, mesh, null, null).kind).toBe('vertices');
   });
 
   it('announces events, not numbers', () => {

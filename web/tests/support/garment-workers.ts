@@ -11,7 +11,7 @@ import type {
   ToExample,
   ToGarment,
 } from '../../src/refinement/worker/garment-protocol';
-import { createAsked } from '../../src/shared/workers/asked';
+import { createAsked, type Port } from '../../src/shared/workers/asked';
 import { workerPort } from './worker-port';
 
 const root = fileURLToPath(new URL('../../..', import.meta.url));
@@ -23,9 +23,8 @@ export async function recordBytes(url: string): Promise<ArrayBuffer> {
   return bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength) as ArrayBuffer;
 }
 
-/** `log` gets every question. */
-export function garmentClient(module: RefinementModule, log: ToGarment[] = []): GarmentClient {
-  const port = workerPort<ToGarment, FromGarment>((post) => {
+function garmentPort(module: RefinementModule, log: ToGarment[]): Port {
+  return workerPort<ToGarment, FromGarment>((post) => {
     const core = new GarmentCore(module, post);
     return {
       receive(message) {
@@ -35,7 +34,26 @@ export function garmentClient(module: RefinementModule, log: ToGarment[] = []): 
       close: () => core.close(),
     };
   });
-  return createAsked(port);
+}
+
+/** `log` gets every question. */
+export function garmentClient(module: RefinementModule, log: ToGarment[] = []): GarmentClient {
+  return createAsked(garmentPort(module, log));
+}
+
+/** Workers that end when told to, one after the other, as the browser ends one. */
+export function mortalWorkers(module: RefinementModule) {
+  const ports: Port[] = [];
+  return {
+    start(broken: (reason: string) => void): GarmentClient {
+      const port = garmentPort(module, []);
+      ports.push(port);
+      return createAsked(port, { broken });
+    },
+    nStarted: () => ports.length,
+    /** Ends the worker that was started last. */
+    endLast: (broken: string) => ports.at(-1)?.onmessage?.({ data: { broken } } as MessageEvent),
+  };
 }
 
 export function exampleClient(module: RefinementModule): ExampleClient {

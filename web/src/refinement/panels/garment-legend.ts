@@ -66,7 +66,10 @@ export function createGarmentLegend(parent: HTMLElement, store: Store<Refinement
       setText(title, 'Curvature now');
       setText(high, `${digits(ranges.curvature, 2)} 1/m and more`);
     } else if (colour === 'distance') {
-      setText(title, 'Distance to the same point of fine, which is grey');
+      setText(
+        title,
+        'How far each face is off the fine cloth; grey where there is nothing to tell',
+      );
       setText(high, `${smallLength(ranges.distance)} and more`);
     }
   });

@@ -18,7 +18,7 @@ const COLOUR_TITLES: readonly { value: ColourId; title: string }[] = [
   { value: 'level', title: 'Level' },
   { value: 'pattern', title: 'Pattern' },
   { value: 'curvature', title: 'Curvature' },
-  { value: 'distance', title: 'Distance to fine' },
+  { value: 'distance', title: 'Distance from fine' },
 ];
 
 const RIVAL_TITLES: readonly { value: RivalId; title: string }[] = [

@@ -1,8 +1,9 @@
-// Play, pause, step, reset, speed, view, time: one row under the stage.
+// Play, pause, step, reset, speed, view, time: what is under the stage.
 import { button, element, setText } from '../../shared/panels/element';
 import { createRunTools, type Playable } from '../../shared/panels/run-tools';
 import { type Store, watch } from '../../shared/state/store';
-import type { RefinementState } from '../state/refinement-state';
+import { FRAME_S } from '../state/garment-frames';
+import { canSeek, isComputedHere, type RefinementState } from '../state/refinement-state';
 
 export interface GarmentToolActions {
   homeView(): void;
@@ -18,6 +19,36 @@ const WORDS = {
   speed: 'shown seconds a second, if the device keeps up',
 };
 
+/** The time of what is recorded, to be moved; where frames are computed it can only be read. */
+function createTime(store: Store<RefinementState>, seek: (timeS: number) => void) {
+  let asked: number | null = null; // the frame that the slider is at and the picture not yet
+  const slider = element('input', {
+    type: 'range',
+    min: 0,
+    step: 1,
+    class: 'time-slider',
+    'aria-label': 'Time',
+    input() {
+      asked = slider.valueAsNumber;
+      seek(asked * FRAME_S);
+    },
+  });
+  const text = element('output', { class: 'toolbar-time', 'aria-live': 'off' });
+  watch(store, ['phase', 'playing', 'timeS', 'endS', 'panes', 'rival'], (state) => {
+    const { playing, timeS, endS } = state;
+    const words = endS > 0 ? `${timeS.toFixed(2)} s of ${endS.toFixed(0)} s` : '';
+    const shown = Math.round(timeS / FRAME_S);
+    if (shown === asked || playing || !canSeek(state)) asked = null;
+    slider.hidden = isComputedHere(state);
+    slider.disabled = !canSeek(state);
+    slider.max = String(Math.round(endS / FRAME_S));
+    if (asked === null) slider.value = String(shown);
+    slider.setAttribute('aria-valuetext', words);
+    setText(text, words);
+  });
+  return element('div', { class: 'time-row' }, slider, text);
+}
+
 function isAtRest(phase: string): boolean {
   return phase !== 'loading' && phase !== 'broken';
 }
@@ -25,7 +56,7 @@ function isAtRest(phase: string): boolean {
 export function createGarmentToolbar(
   parent: HTMLElement,
   store: Store<RefinementState>,
-  run: Playable,
+  run: Playable & { seek(timeS: number): void },
   actions: GarmentToolActions,
 ): void {
   createRunTools(parent, store, run, actions.homeView, WORDS, isAtRest);
@@ -38,11 +69,13 @@ export function createGarmentToolbar(
   const obj = button('OBJ', actions.saveObj, {
     title: 'Saves the multi-resolution cloth as it is now',
   });
-  const time = element('output', { class: 'toolbar-time', 'aria-live': 'off' });
-  parent.append(hem, picture, obj, time);
-
-  watch(store, ['phase', 'timeS', 'endS'], ({ phase, timeS, endS }) => {
+  parent.append(
+    hem,
+    picture,
+    obj,
+    createTime(store, (timeS) => run.seek(timeS)),
+  );
+  watch(store, ['phase'], ({ phase }) => {
     for (const made of [hem, picture, obj]) made.disabled = !isAtRest(phase);
-    setText(time, endS > 0 ? `${timeS.toFixed(2)} s of ${endS.toFixed(0)} s` : '');
   });
 }

@@ -2,27 +2,17 @@
 
 import { digits, milliseconds, percent, smallLength } from '../../shared/panels/quantity';
 import { warningSentence } from '../../shared/panels/warning-words';
-import type { FitAnswer } from '../bindings/refinement-module';
 import { exampleName, GARMENTS } from '../state/garments';
 import { type PlanFile, type PlanStory, planStory } from '../state/plan-file';
 import {
-  canPlanAnew,
   comparedPanes,
   type FrameSource,
   type GarmentPane,
-  isExample,
   MOST_SUBSTEPS,
   PANE_TITLES,
   type PaneId,
   type RefinementState,
 } from '../state/refinement-state';
-
-/** Share of its faces beyond which, for ten frames, the monitor fires; docs/methods/multiresolution.md. */
-export const LARGEST_SHARE = 0.05;
-export const FRAMES_TO_FIRE = 10;
-
-/** Frames of a second: before that a motion that fits and one that does not look alike. */
-export const FRAMES_TO_FIT = 30;
 
 export function vertices(count: number): string {
   return `${count.toLocaleString('en').replaceAll(',', '\u202f')} vertices`;
@@ -46,9 +36,10 @@ export function costWords({ source, msPerFrame }: GarmentPane, isFineCloth: bool
   }
 }
 
-export function errorWords(pane: PaneId, { lostM, source }: GarmentPane): string {
+/** The same quantity as the colours of distance show. */
+export function errorWords(pane: PaneId, { distanceM, source }: GarmentPane): string {
   if (pane === 'fine') return source === 'resting' ? '' : 'what the others are held against';
-  return lostM === null ? '' : `${smallLength(lostM)} of shape lost`;
+  return distanceM === null ? '' : `${smallLength(distanceM)} off fine`;
 }
 
 /** The first sign seen in the steps of a pane that they are no cloth. */
@@ -82,11 +73,11 @@ export function fromTo(values: readonly number[]): string {
 }
 
 function whatToDo({ garment, motion, fabric }: RefinementState, plan: PlanFile): string {
-  if (motion !== 'squat') return 'Compare the folds with those of the fine mesh.';
+  if (motion !== 'squat') return 'Play, or move the time below the picture.';
   const own = exampleName(garment, motion, fabric);
   if (plan.examples.some(({ name }) => name === own))
-    return 'Play, and watch the light below: now the plan knows where the knees bend the cloth.';
-  return 'Play, and watch the light below: the knees bend the cloth where no walk did, and the plan does not know it.';
+    return 'Play, and watch the light: now the plan knows where the knees bend the cloth.';
+  return 'Play, and watch the light: the knees bend the cloth where no walk did, and the plan does not know it.';
 }
 
 const PLANNED = PANE_TITLES.planned.toLowerCase();
@@ -175,50 +166,6 @@ export function storySentences(story: PlanStory): string {
     ? ''
     : ' A split face asks for one less at each corner before it may be split again.';
   return `${origin} ${splits}${again}`;
-}
-
-export interface FitReading {
-  light: 'fits' | 'uneasy' | 'fires' | 'watching' | 'unknown';
-  title: string;
-  detail: string;
-}
-
-/** The monitor's light. */
-export function fitReading(fit: FitAnswer | null, story: PlanStory | null): FitReading {
-  if (!fit || !story?.hasLimits)
-    return {
-      light: 'unknown',
-      title: 'Not watched yet',
-      detail: 'The light compares each frame with the example once the cloth moves.',
-    };
-  const examples = story.examples.length > 1 ? 'examples' : 'example';
-  const share = `${percent(fit.share)} of the faces bend more than any near them did in the ${examples}; at most ${percent(fit.worst_share)} so far.`;
-  if (fit.fires || fit.first_fired !== null)
-    return {
-      light: 'fires',
-      title: `Does not fit the ${examples}`,
-      detail: `${share} More than ${percent(LARGEST_SHARE)} for ${FRAMES_TO_FIRE} frames in a row: the mesh was planned for another kind of motion.`,
-    };
-  if (fit.n_frames < FRAMES_TO_FIT)
-    return {
-      light: 'watching',
-      title: 'Watching',
-      detail: `${fit.n_frames} of ${FRAMES_TO_FIT} frames seen: too few to tell. ${share}`,
-    };
-  if (fit.share > LARGEST_SHARE)
-    return {
-      light: 'uneasy',
-      title: 'Fits, but for now',
-      detail: `${share} That has lasted ${fit.n_in_a_row} of ${FRAMES_TO_FIRE} frames.`,
-    };
-  return { light: 'fits', title: `Fits the ${examples}`, detail: share };
-}
-
-/** Says below the button that plans anew what it does, or why it does nothing now. */
-export function anewSentence(state: RefinementState): string {
-  if (canPlanAnew(state)) return 'Runs it once on the fine mesh first: half a minute or so.';
-  if (isExample(state)) return 'The plan is made of this motion already.';
-  return 'For a motion that does not fit, once the light says so.';
 }
 
 /** Says where the frames come from, and which panes wait. */

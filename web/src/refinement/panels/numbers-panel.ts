@@ -57,6 +57,10 @@ function numberTable(state: RefinementState): HTMLElement {
       row('– motion', costCells(state, 'dynamics')),
       row('– contact', costCells(state, 'contact')),
       row(
+        'off fine',
+        cells((id) => (id === 'fine' ? '' : smallLength(panes[id].distanceM))),
+      ),
+      row(
         'shape lost',
         cells((id) => (id === 'fine' ? '' : smallLength(panes[id].lostM))),
       ),
@@ -79,7 +83,7 @@ function numberTable(state: RefinementState): HTMLElement {
 }
 
 const MEANING =
-  'Shape lost: with every vertex where the same point of the fine cloth is, how far the faces between them are from it, root mean square, and by what angle they are turned. It is the mesh’s own fault, without chance. Folds: how far they stand out around the garment, by their number, over all frames from 2 s on; and the surfaces now. In the column of fine: the same of a second fine run, in air heavier by a millionth. Then: vertices inside the body, and edges that go through the cloth itself, which nothing prevents. A frame is 1/30 s.';
+  'Off fine: distance of the shown cloth from the same points of the fine one, root mean square, as the colours and the line above the picture tell it. Shape lost: with every vertex where the same point of the fine cloth is, how far the faces between them are from it, root mean square, and by what angle they are turned. It is the mesh’s own fault, without chance. Folds: how far they stand out around the garment, by their number, over all frames from 2 s on; and the surfaces now. In the column of fine: the same of a second fine run, in air heavier by a millionth. Then: vertices inside the body, and edges that go through the cloth itself, which nothing prevents. A frame is 1/30 s.';
 
 export function createNumbersPanel(parent: HTMLElement, store: Store<RefinementState>): void {
   const levels = element('p');

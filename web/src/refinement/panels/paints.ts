@@ -1,5 +1,5 @@
 // The colours that the panes are painted with.
-import { linearColour, MAGNITUDE_MAP } from '../../shared/stage/colormap';
+import { linearColour, MAGNITUDE_MAP, paint } from '../../shared/stage/colormap';
 import type { Paint } from '../stage/graded-cloth';
 import { countFaces, faceAt, facePatterns, type PlanFile } from '../state/plan-file';
 import type { RefinementState } from '../state/refinement-state';
@@ -23,17 +23,30 @@ function facePaint(numbers: readonly number[], colours: readonly string[]): Pain
   };
 }
 
+function neutralPaint(mesh: GarmentMesh): Paint {
+  const none = Array.from({ length: countFaces(mesh.faces) }, () => 0);
+  return facePaint(none, [NEUTRAL_COLOUR]);
+}
+
+/** One number a face, on a scale from 0. */
+function scalePaint(values: Float32Array, high: number): Paint {
+  const colours = new Float32Array(3 * values.length);
+  paint(MAGNITUDE_MAP, values, 0, high, colours);
+  return { kind: 'faces', colours };
+}
+
+/**
+ * The colours of a mesh. `distances` are those of its faces [m]: `none` where there are none, as of the fine
+ * mesh from itself, null where only those of its vertices are known.
+ */
 export function paintOf(
   { colour, ranges }: Pick<RefinementState, 'colour' | 'ranges'>,
   mesh: GarmentMesh,
   plan: PlanFile | null,
-  isFine: boolean,
+  distances: Float32Array | 'none' | null,
 ): Paint {
-  // It has no distance to itself.
-  if (isFine && colour === 'distance') {
-    const none = Array.from({ length: countFaces(mesh.faces) }, () => 0);
-    return facePaint(none, [NEUTRAL_COLOUR]);
-  }
+  if (colour === 'distance' && distances !== null)
+    return distances === 'none' ? neutralPaint(mesh) : scalePaint(distances, ranges.distance);
   switch (colour) {
     case 'material':
       return { kind: 'material' };

@@ -11,10 +11,11 @@ import type {
 export type GarmentClient = Asked<ToGarment, GarmentAnswers>;
 export type ExampleClient = Asked<ToExample, ExampleAnswers>;
 
-export function startGarmentWorker(): GarmentClient {
+/** `onBroken` hears that it will not answer any more, and why, though nothing is asked. */
+export function startGarmentWorker(onBroken: (reason: string) => void): GarmentClient {
   return startAsked(
     new Worker(new URL('../worker/garment-worker.ts', import.meta.url), { type: 'module' }),
-    {},
+    { broken: onBroken },
     WHOLE,
   );
 }

@@ -91,6 +91,8 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
       spare = shown;
       shown = buffer;
     },
+    /** Ends its worker. */
+    end: () => client.terminate(),
     /** Cost of the frames computed here [ms]. */
     costs({ steps_timed: nSteps, steps_ms: ms, parts_ms: partsMs }: GarmentCosts) {
       if (nSteps === 0) return { msPerFrame: null, parts: [] };

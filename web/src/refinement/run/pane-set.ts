@@ -38,7 +38,7 @@ export interface TrioView {
 
 /** The functions by which panes start their workers and fetch files. */
 export interface PaneParts {
-  start(): GarmentClient;
+  start(onBroken: (reason: string) => void): GarmentClient;
   fetchBytes: FetchBytes;
 }
 
@@ -57,14 +57,25 @@ export class PaneSet {
     private readonly store: Store<RefinementState>,
     private readonly view: TrioView,
     private readonly parts: PaneParts,
+    /** Hears that the worker of a pane has ended. */
+    private readonly broken: (reason: string) => void,
   ) {}
 
   private run(id: PaneId): PaneRun {
     const known = this.runs.get(id);
     if (known) return known;
-    const run = createPaneRun(id, this.parts.start(), this.parts.fetchBytes);
+    const client = this.parts.start((reason) => {
+      if (this.runs.get(id) === run) this.broken(reason);
+    });
+    const run = createPaneRun(id, client, this.parts.fetchBytes);
     this.runs.set(id, run);
     return run;
+  }
+
+  /** Ends all workers; what is asked next is asked of others, which have nothing loaded. */
+  renew(): void {
+    for (const run of this.runs.values()) run.end();
+    this.runs.clear();
   }
 
   private get fine(): PaneRun {
@@ -78,6 +89,11 @@ export class PaneSet {
 
   private get others(): PaneRun[] {
     return this.panes.filter((pane) => pane !== this.fine);
+  }
+
+  /** Any worker has answered. */
+  hasStarted(): boolean {
+    return [...this.runs.values()].some((run) => run.isLoaded());
   }
 
   isLoaded(): boolean {
@@ -139,6 +155,13 @@ export class PaneSet {
   async restart(frame: number, isCurrent: IsCurrent): Promise<void> {
     await this.showAnew(frame, isCurrent);
     await this.describe(true, isCurrent);
+  }
+
+  /** Another time, to which nothing has to be computed. */
+  async seek(timeS: number, isCurrent: IsCurrent): Promise<void> {
+    this.at = Math.max(0, Math.min(this.endFrame(), Math.round(timeS / FRAME_S)));
+    await this.advance(({ source }) => (source === 'recorded' ? 'recorded' : 'still'), isCurrent);
+    await this.describe(false, isCurrent);
   }
 
   /** Leaves the samples, if they are what is shown: the panes are computed from the beginning. */
@@ -235,7 +258,8 @@ export class PaneSet {
       fineFolds: null,
       takesSample: false,
       timeS: frame * FRAME_S,
-      wantsAll: false,
+      wantsFaults: false,
+      wantsSurface: false,
     });
     if (!isCurrent()) return;
     this.view.showFrames([{ pane: pane.id, buffer: described.buffer }], described.solids);
@@ -283,7 +307,8 @@ export class PaneSet {
       fineFolds: fine?.folds ?? null,
       takesSample: isSampled,
       timeS: this.timeS(),
-      wantsAll: wantsNumbers && !state.playing,
+      wantsFaults: wantsNumbers && (!state.playing || pane.source === 'recorded'),
+      wantsSurface: wantsNumbers && !state.playing,
     });
   }
 
@@ -292,6 +317,7 @@ export class PaneSet {
     const { compared, foldsM, surfaceM, faults, costs, warnings } = described;
     const isSampled = this.isSampled(pane);
     const patch: Partial<GarmentPane> = {
+      distanceM: compared?.rms_m ?? null,
       lostM: compared?.lost_m ?? null,
       lostNormalsRad: compared?.lost_normals_rad ?? null,
       foldsM: isSampled ? null : foldsM,

@@ -13,11 +13,14 @@ import { type Clock, createClock, DISPLAY, type Display } from '../../shared/sta
 import { type IsCurrent, Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
 import { BrokenWorker } from '../../shared/workers/asked';
+import { endedSentence, Restarts } from '../../shared/workers/restarts';
 import { FRAME_S } from '../state/garment-frames';
 import type { MotionId } from '../state/garments';
 import type { PlanFile } from '../state/plan-file';
 import {
+  canSeek,
   type Doing,
+  isComputedHere,
   PANE_TITLES,
   type PaneId,
   type RefinementState,
@@ -46,9 +49,8 @@ const BROWSER: TrioParts = {
 
 function failureOf(error: unknown): Failure {
   if (error instanceof Refused) return error.failure;
-  const reason = describe(error);
-  if (error instanceof BrokenWorker) return brokenFailure('The garment', reason);
-  return inputFailure(`Not all of it could be fetched (${quoted(reason)}). Check the connection.`);
+  const reason = quoted(describe(error));
+  return inputFailure(`Not all of it could be fetched (${reason}). Check the connection.`);
 }
 
 /** Says what is computed for want of the frames that come with the page. */
@@ -61,11 +63,24 @@ function missedFailure({ panes, reason }: { panes: readonly PaneId[]; reason: st
   );
 }
 
+/** Says what is shown in place of a time that was asked for; null where it is that time. */
+function elsewhereFailure(askedS: number, shownS: number, isComputed: boolean): Failure | null {
+  if (Math.abs(askedS - shownS) <= FRAME_S / 2) return null;
+  const [asked, shown] = [askedS, shownS].map((timeS) => `${timeS.toFixed(2)} s`);
+  return inputFailure(
+    isComputed
+      ? `No frames of this motion come with the page, so that ${asked} cannot be shown at once: it is computed here, from ${shown} on. Press Play.`
+      : `The frames end at ${shown}, which is shown in place of ${asked}.`,
+  );
+}
+
 export class Trio {
   private readonly panes: PaneSet;
   private readonly clock: Clock;
   private readonly latest = new Latest(); // load
+  private readonly restarts = new Restarts();
   private isBusy = false;
+  private soughtS: number | null = null; // the last time that was asked for and is not shown yet
   private isAskedAgain = false; // colours and cloth were wanted while busy
   private isTakingBack = false; // a wish that was given up
   private isBuilt = false; // all panes are as wanted, but for the plan
@@ -76,7 +91,7 @@ export class Trio {
     view: TrioView,
     private readonly parts: TrioParts = BROWSER,
   ) {
-    this.panes = new PaneSet(store, view, parts);
+    this.panes = new PaneSet(store, view, parts, (reason) => this.breakDown(reason));
     this.clock = createClock(parts);
     store.subscribe((state, previous) => this.follow(state, previous));
     void this.load('all');
@@ -104,8 +119,30 @@ export class Trio {
   reset(): void {
     const { phase } = this.store.get();
     if (phase === 'loading' || phase === 'broken') return;
-    this.store.set({ playing: false, phase: 'ready', problem: null });
+    this.store.set({ playing: false, problem: null });
+    if (!this.panes.isLoaded()) return void this.load('all');
+    this.store.set({ phase: 'ready' });
     void this.idle().then(() => this.restart());
+  }
+
+  /** Shows another time, if that can be had at once; of several in a row the last one. */
+  seek(timeS: number): void {
+    if (!canSeek(this.store.get())) return;
+    this.store.set({ playing: false });
+    const isUnderWay = this.soughtS !== null;
+    this.soughtS = timeS;
+    if (!isUnderWay) void this.seekOn();
+  }
+
+  private async seekOn(): Promise<void> {
+    let shownS: number | null = null;
+    while (this.soughtS !== shownS) {
+      await this.idle();
+      const timeS: number = this.soughtS ?? 0;
+      if (await this.alone((isCurrent) => this.panes.seek(timeS, isCurrent))) shownS = timeS;
+    }
+    this.soughtS = null;
+    this.recolour();
   }
 
   /** Gives up what is on its way, if that can be given up. */
@@ -170,6 +207,15 @@ export class Trio {
     this.store.set({ budgetRange, endS: this.panes.endFrame() * FRAME_S });
     await this.idle();
     await this.panes.start(isCurrent);
+    if (isCurrent()) this.sayElsewhere();
+  }
+
+  /** The link starts where the picture does. */
+  private sayElsewhere(): void {
+    const state = this.store.get();
+    const { startS, timeS, problem } = state;
+    const elsewhere = elsewhereFailure(startS, timeS, isComputedHere(state));
+    if (elsewhere) this.takeBack({ startS: timeS, problem: problem ?? elsewhere });
   }
 
   private plan(isCurrent: IsCurrent): Promise<PlanFile> {
@@ -181,14 +227,41 @@ export class Trio {
 
   /** Says what could not be loaded, and shows what is left. */
   private giveUp(error: unknown): void {
-    const isBroken = error instanceof BrokenWorker;
+    if (error instanceof BrokenWorker) return this.breakDown(error.message);
     const problem = failureOf(error);
     // When a link's further examples cannot be had, the rest of it is shown.
-    if (!this.isBuilt && !isBroken && this.store.get().further.length > 0)
+    if (!this.isBuilt && this.store.get().further.length > 0)
       return this.store.set({ further: [], problem });
     if (this.isBuilt) this.takeBack({ further: this.planned });
-    const phase = isBroken ? 'broken' : this.panes.isLoaded() ? 'ready' : 'stopped';
+    const phase = this.panes.isLoaded() ? 'ready' : 'stopped';
     this.store.set({ phase, doing: null, problem });
+  }
+
+  /** A worker has ended: others take the places of all, once. */
+  private breakDown(reason: string): void {
+    const hasStarted = this.panes.hasStarted() || this.isBuilt;
+    const mayStart = this.restarts.mayStart();
+    const state = this.store.get();
+    const { timeS, startS } = state;
+    const isComputed = isComputedHere(state);
+    this.latest.start(); // what is under way is of the workers that are ended
+    this.panes.renew();
+    this.parts.planner.cancel();
+    this.isBuilt = false;
+    const rest = { playing: false, doing: null } as const;
+    if (!hasStarted && mayStart) {
+      const problem = brokenFailure('The garment', reason);
+      return this.store.set({ ...rest, phase: 'broken', problem });
+    }
+    const ended = endedSentence(quoted(reason), timeS > 0 ? ` at ${timeS.toFixed(2)} s` : '');
+    if (!mayStart) {
+      const what = `${ended} That happened twice. Choose another garment or motion, or reset to try once more.`;
+      return this.store.set({ ...rest, phase: 'stopped', problem: inputFailure(what) });
+    }
+    const where = isComputed && timeS > 0 ? ', and what is computed here is back at its start' : '';
+    const problem = inputFailure(`${ended} It was started again${where}.`);
+    this.takeBack({ ...rest, startS: isComputed ? startS : timeS, problem });
+    void this.load('all');
   }
 
   private takeBack(patch: Partial<RefinementState>): void {
@@ -202,7 +275,7 @@ export class Trio {
     while (this.isBusy) await new Promise<void>((resolve) => this.parts.later(resolve));
   }
 
-  private restart(): Promise<void> {
+  private restart(): Promise<boolean> {
     return this.alone((isCurrent) => this.panes.restart(0, isCurrent));
   }
 
@@ -219,22 +292,28 @@ export class Trio {
     this.store.set({ phase: 'stopped', playing: false, problem: inputFailure(what) });
   }
 
-  /** One thing at a time; what fails is told. */
-  private async alone(work: (isCurrent: IsCurrent) => Promise<void>): Promise<void> {
-    if (this.isBusy) return;
+  /** One thing at a time, false while there is another; what fails is told. */
+  private async alone(work: (isCurrent: IsCurrent) => Promise<void>): Promise<boolean> {
+    if (this.isBusy) return false;
     this.isBusy = true;
     const isCurrent = this.latest.mark();
     try {
       await work(isCurrent);
+      if (isCurrent()) this.restarts.prove();
     } catch (error) {
-      const phase = error instanceof BrokenWorker ? 'broken' : 'stopped';
-      const problem = failureOf(error);
-      if (isCurrent()) this.store.set({ phase, playing: false, doing: null, problem });
+      if (isCurrent()) this.stop(error);
     }
     this.isBusy = false;
-    if (!this.isAskedAgain) return;
+    const isAskedAgain = this.isAskedAgain;
     this.isAskedAgain = false;
-    this.recolour();
+    if (isAskedAgain) this.recolour();
+    return true;
+  }
+
+  private stop(error: unknown): void {
+    if (error instanceof BrokenWorker) return this.breakDown(error.message);
+    const problem = failureOf(error);
+    this.store.set({ phase: 'stopped', playing: false, doing: null, problem });
   }
 
   private recolour(): void {

@@ -1,7 +1,7 @@
 // Numbers that the view of refinement, the program that makes its records and benches agree on.
 
-/** The time at which the view starts [s]. */
-export const START_S = 3;
+/** The picture that the view opens on: whose garment, in which motion, at which time [s]. */
+export const FIRST_PICTURE = { garment: 'skirt', motion: 'fast_walk', startS: 0 } as const;
 
 /** Level of the mesh that all others are compared with, and the finest level of a plan. */
 export const FINE_LEVEL = 2;
@@ -17,6 +17,11 @@ export const SEEN_S = 3;
 
 /** One in so many of an example's frames is kept for a plan's limits. */
 export const KEPT_OF = 3;
+
+/** Share of its faces beyond which a mesh is no longer for a motion; docs/methods/multiresolution.md. */
+export const LARGEST_SHARE = 0.05;
+/** Frames in a row for which it has to be. */
+export const FRAMES_TO_FIRE = 10;
 
 /** Patterns of a plan. */
 export const PATTERNS = 3;

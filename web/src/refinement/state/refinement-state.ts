@@ -1,8 +1,9 @@
 // The state of the view of refinement.
 import { type Failure, inputFailure } from '../../shared/bindings/answers';
 import type { RunWarning } from '../../shared/bindings/run-warning';
-import type { FaultsAnswer, FitAnswer } from '../bindings/refinement-module';
-import { START_S, USUAL_DEMANDS_MM } from './garment-frames';
+import type { FaultsAnswer } from '../bindings/refinement-module';
+import type { Fit } from './fit';
+import { FIRST_PICTURE, USUAL_DEMANDS_MM } from './garment-frames';
 import { type GarmentId, type MethodId, MOTIONS, type MotionId, usualFabric } from './garments';
 import type { PlanFile } from './plan-file';
 
@@ -41,6 +42,8 @@ export interface GarmentPane {
   /** Time of the work for one frame [ms], in parts. */
   msPerFrame: number | null;
   parts: { name: string; ms: number }[];
+  /** Distance of the shown cloth from the fine pane's at the same points, root mean square [m]. */
+  distanceM: number | null;
   /** Loss of the mesh of the fine pane's shape by its faces alone [m], and of its normals [rad]. */
   lostM: number | null;
   lostNormalsRad: number | null;
@@ -57,6 +60,7 @@ export const EMPTY_PANE: GarmentPane = {
   source: 'resting',
   msPerFrame: null,
   parts: [],
+  distanceM: null,
   lostM: null,
   lostNormalsRad: null,
   foldsM: null,
@@ -123,7 +127,7 @@ export interface RefinementState extends RefinementLink {
   plan: PlanFile | null;
   /** Vertices that a budget can ask for. */
   budgetRange: [number, number] | null;
-  fit: FitAnswer | null;
+  fit: Fit | null;
   /** The face that was asked about, by its place in the plan's mesh. */
   face: number | null;
   /** Upper ends of the scales. */
@@ -136,12 +140,12 @@ export interface RefinementState extends RefinementLink {
 }
 
 export const DEFAULT_LINK: RefinementLink = {
-  garment: 'skirt',
-  motion: 'fast_walk',
-  fabric: usualFabric('skirt'),
+  garment: FIRST_PICTURE.garment,
+  motion: FIRST_PICTURE.motion,
+  fabric: usualFabric(FIRST_PICTURE.garment),
   further: [],
   rule: 'demand',
-  demand: USUAL_DEMANDS_MM.skirt,
+  demand: USUAL_DEMANDS_MM[FIRST_PICTURE.garment],
   budget: null,
   rival: 'coarse',
   method: 'implicit',
@@ -149,11 +153,11 @@ export const DEFAULT_LINK: RefinementLink = {
   useRecords: true,
   computeFine: true,
   fineCloth: false,
-  colour: 'level',
+  colour: 'distance',
   edges: false,
   hanging: false,
   speed: 1,
-  startS: START_S,
+  startS: FIRST_PICTURE.startS,
 };
 
 /** The panes on the stage, from left to right. A fine mesh that rests while the others move has none. */
@@ -178,6 +182,18 @@ export function showsFineCloth({
   panes,
 }: Pick<RefinementState, 'fineCloth' | 'panes'>): boolean {
   return fineCloth && panes.fine.source !== 'resting';
+}
+
+/** Some pane shows what was computed on this device, step by step. */
+export function isComputedHere(state: Pick<RefinementState, 'panes' | 'rival'>): boolean {
+  return comparedPanes(state).some((id) => state.panes[id].source === 'computed');
+}
+
+/** Any of the times can be shown at once: nothing that is seen has to be computed on the way there. */
+export function canSeek(state: Pick<RefinementState, 'phase' | 'panes' | 'rival'>): boolean {
+  if (state.phase !== 'ready') return false;
+  const sources = comparedPanes(state).map((id) => state.panes[id].source);
+  return sources.every((source) => source === 'recorded' || source === 'sampled');
 }
 
 /** The shown motion is one of those that the plan is made of. */

@@ -15,6 +15,7 @@ import type {
   SolidsAnswer,
   WarningsAnswer,
 } from '../bindings/refinement-module';
+import { type Fit, LastingShare } from '../state/fit';
 import type { Described, FromGarment, ToGarment } from './garment-protocol';
 import { type Recording, readRecording } from './recording';
 
@@ -36,6 +37,8 @@ export class GarmentCore extends ModuleCore<RefinementModule, ToGarment, FromGar
   private recording: Recording | null = null;
   private recordedFolds: Float64Array | null = null;
   private nFolded = 0; // computed frames whose folds count
+  private nWatched = 0; // frames of the record that the monitor has seen
+  private lasting = new LastingShare();
   private settledS = 0;
   private stepsPerFrame = 1;
 
@@ -46,7 +49,7 @@ export class GarmentCore extends ModuleCore<RefinementModule, ToGarment, FromGar
     granted(this.run.holdAgainst(fineText, files));
     this.summary = answer;
     this.settledS = settledS;
-    this.nFolded = 0;
+    this.beginAnew();
     this.stepsPerFrame = Math.max(1, Math.round(frameS / answer.step_s));
     const mesh = {
       triangles: this.run.triangles().slice(),
@@ -86,27 +89,55 @@ export class GarmentCore extends ModuleCore<RefinementModule, ToGarment, FromGar
     return status ? `${status.status.replaceAll('_', ' ')}: ${status.message}` : 'no report';
   }
 
+  /** The monitor's word on the shown frame; null without a monitor. */
+  private watch(owner: GarmentRunHandle): Fit | null {
+    if (!this.summary?.has_monitor) return null;
+    const seen = payloadOf<FitAnswer>(owner.addShownFrame());
+    return seen && { ...seen, lasting_share: this.lasting.add(seen.share) };
+  }
+
+  private put(owner: GarmentRunHandle, frame: number): void {
+    const places = this.recording?.frames[frame];
+    if (!places || !this.recording) throw new Error(`no frame ${frame}`);
+    const { first_s: firstS, every_s: everyS } = this.recording.head;
+    granted(owner.put(places, firstS + frame * everyS));
+  }
+
+  /** Shows a frame of the record. The monitor sees all up to it, whatever the display left out. */
+  private show(owner: GarmentRunHandle, frame: number): Fit | null {
+    let fit: Fit | null = null;
+    if (this.summary?.has_monitor) {
+      if (frame < this.nWatched) this.reset(owner);
+      for (; this.nWatched <= frame; ++this.nWatched) {
+        this.put(owner, this.nWatched);
+        fit = this.watch(owner);
+      }
+    } else this.put(owner, frame);
+    return fit;
+  }
+
+  private step(owner: GarmentRunHandle): string | null {
+    if (owner.step(this.stepsPerFrame) !== 0) return this.ended(owner);
+    if (owner.time() >= this.settledS && read<object>(owner.addFolds()).ok) this.nFolded += 1;
+    return null;
+  }
+
   private advance(owner: GarmentRunHandle, { frame, how }: Message<'advance'>): void {
-    let reason: string | null = null;
-    if (how === 'stepped') {
-      if (owner.step(this.stepsPerFrame) !== 0) reason = this.ended(owner);
-      else if (owner.time() >= this.settledS && read<object>(owner.addFolds()).ok)
-        this.nFolded += 1;
-    }
-    if (how === 'recorded') {
-      const places = this.recording?.frames[frame];
-      if (!places || !this.recording) throw new Error(`no frame ${frame}`);
-      const { first_s: firstS, every_s: everyS } = this.recording.head;
-      granted(owner.put(places, firstS + frame * everyS));
-    }
-    const isWatched = this.summary?.has_monitor === true && how !== 'still';
-    const fit = isWatched ? payloadOf<FitAnswer>(owner.addShownFrame()) : null;
-    this.post({ type: 'advanced', fit, ended: reason }, []);
+    const ended = how === 'stepped' ? this.step(owner) : null;
+    const fit =
+      how === 'recorded' ? this.show(owner, frame) : how === 'stepped' ? this.watch(owner) : null;
+    this.post({ type: 'advanced', fit, ended }, []);
+  }
+
+  private beginAnew(): void {
+    this.nFolded = 0;
+    this.nWatched = 0;
+    this.lasting = new LastingShare();
   }
 
   private reset(owner: GarmentRunHandle): void {
     granted(owner.reset());
-    this.nFolded = 0;
+    this.beginAnew();
   }
 
   private fill(
@@ -144,9 +175,9 @@ export class GarmentCore extends ModuleCore<RefinementModule, ToGarment, FromGar
     const given = message.buffer;
     const buffer = given?.byteLength === nBytes ? given : new ArrayBuffer(nBytes);
     this.fill(owner, message, buffer);
-    const isSought = reference !== null && message.wantsAll && !message.takesSample;
+    const isSought = reference !== null && message.wantsSurface && !message.takesSample;
     const surface = isSought ? payloadOf<{ rms_m: number }>(owner.compareSurface(reference)) : null;
-    const faults = message.wantsAll ? payloadOf<FaultsAnswer>(owner.faults()) : null;
+    const faults = message.wantsFaults ? payloadOf<FaultsAnswer>(owner.faults()) : null;
     const costs = payloadOf<GarmentCosts>(owner.costs());
     const warnings = payloadOf<WarningsAnswer>(owner.warnings())?.warnings ?? [];
     const solids = payloadOf<SolidsAnswer>(owner.solids());

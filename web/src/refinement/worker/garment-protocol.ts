@@ -6,12 +6,12 @@ import type { Done } from '../../shared/workers/asked';
 import type {
   ComparedAnswer,
   FaultsAnswer,
-  FitAnswer,
   GarmentCosts,
   GarmentSummary,
   HandedFiles,
   SolidsAnswer,
 } from '../bindings/refinement-module';
+import type { Fit } from '../state/fit';
 import type { PlanFile } from '../state/plan-file';
 import type { RecordingHead } from './recording';
 
@@ -36,6 +36,7 @@ export type ToGarment =
       /** Time from which on folds count. */
       settledS: number;
     }
+  /** A recorded frame can be any one: those before it count for the fit as well. */
   | { type: 'advance'; frame: number; how: Advance }
   | { type: 'reset' }
   | {
@@ -48,8 +49,9 @@ export type ToGarment =
       /** Shows the reference as this mesh could show it, in place of a frame of its own. */
       takesSample: boolean;
       timeS: number;
-      /** Also what takes longer than a frame: the distance between surfaces, and faults. */
-      wantsAll: boolean;
+      /** Also faults, and the distance between surfaces, which takes longer than a frame. */
+      wantsFaults: boolean;
+      wantsSurface: boolean;
       /** An earlier frame's, to be filled. */
       buffer: ArrayBuffer | null;
     };
@@ -92,7 +94,7 @@ export interface Loaded {
 
 export interface Advanced {
   type: 'advanced';
-  fit: FitAnswer | null;
+  fit: Fit | null;
   /** Why the run ended, or null. */
   ended: string | null;
 }

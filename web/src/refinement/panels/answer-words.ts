@@ -1,0 +1,54 @@
+// The answer that the picture gives, in a sentence: how far from the fine cloth each mesh is now, and at what cost.
+import { digits, percent, smallLength } from '../../shared/panels/quantity';
+import type { GarmentId } from '../state/garments';
+import {
+  comparedPanes,
+  PANE_TITLES,
+  type PaneId,
+  type RefinementState,
+  showsFineCloth,
+} from '../state/refinement-state';
+
+/** Beyond this share of the other mesh's distance, nobody would call the planned one much nearer. */
+const MUCH_NEARER = 0.5;
+
+const NAMES: Record<GarmentId, { title: string; verb: string; one: string }> = {
+  skirt: { title: 'skirt', verb: 'is', one: 'one' },
+  trousers: { title: 'trousers', verb: 'are', one: 'ones' },
+  slim_trousers: { title: 'trousers', verb: 'are', one: 'ones' },
+};
+
+const nameOf = (id: PaneId) => PANE_TITLES[id].toLowerCase();
+
+/** The share of the fine mesh's cost that the planned one has: of its time where both were timed alike. */
+function costWords({ panes: { planned, fine } }: RefinementState): string {
+  const isTimedAlike = planned.source === fine.source && planned.msPerFrame && fine.msPerFrame;
+  if (isTimedAlike)
+    return `at ${percent((planned.msPerFrame ?? 0) / (fine.msPerFrame ?? 1))} of its time`;
+  return `with ${percent(planned.nVertices / fine.nVertices)} of its vertices`;
+}
+
+/** Words on cloth that goes through itself in what is shown; null where it does not. */
+export function tangleSentence(state: RefinementState): string | null {
+  const counts = comparedPanes(state).map((id) => ({
+    id,
+    n: state.panes[id].faults?.n_crossings ?? 0,
+  }));
+  if (counts.every(({ n }) => n === 0)) return null;
+  const list = counts.map(({ id, n }) => `${nameOf(id)} ${digits(n, 3)}`).join(', ');
+  return `Cloth passes through itself here (edges: ${list}): nothing guards against that yet, so this moment says nothing about meshes.`;
+}
+
+/** Empty while nothing is known. */
+export function answerSentence(state: RefinementState): string {
+  const { panes, garment, rival } = state;
+  const [ours, theirs] = [panes.planned.distanceM, panes[rival].distanceM];
+  if (ours === null || theirs === null) return '';
+  const tangle = tangleSentence(state);
+  if (tangle !== null) return tangle;
+  const [near, far] = [smallLength(ours), smallLength(theirs)];
+  if (ours > MUCH_NEARER * theirs && !showsFineCloth(state))
+    return `Once they move, meshes go ways of their own: the multi-resolution one is ${near} off the fine one, the ${nameOf(rival)} one ${far}.`;
+  const { title, verb, one } = NAMES[garment];
+  return `The multi-resolution ${title} ${verb} ${near} off the fine ${one}, the ${nameOf(rival)} ${one} ${far}, ${costWords(state)}.`;
+}

@@ -1,0 +1,63 @@
+import { describe, expect, it } from 'vitest';
+import { answerSentence, tangleSentence } from '../../src/refinement/panels/answer-words';
+import { errorWords } from '../../src/refinement/panels/garment-words';
+import {
+  DEFAULT_LINK,
+  EMPTY_PANE,
+  type GarmentPane,
+  initialRefinementState,
+  type RefinementState,
+} from '../../src/refinement/state/refinement-state';
+
+const NO_FAULTS = { n_inside: 0, deepest_m: 0, n_crossings: 0 };
+const RECORDED: GarmentPane = { ...EMPTY_PANE, source: 'recorded', faults: NO_FAULTS };
+
+const coarse = { ...RECORDED, nVertices: 714, distanceM: 0.0049, msPerFrame: 8 };
+const planned = { ...RECORDED, nVertices: 1760, distanceM: 0.0021, msPerFrame: 40 };
+const fine = { ...RECORDED, nVertices: 10920, msPerFrame: 400 };
+
+const STATE: RefinementState = {
+  ...initialRefinementState(DEFAULT_LINK, []),
+  panes: { coarse, even: EMPTY_PANE, planned, fine },
+};
+
+const withPanes = (patch: Partial<RefinementState['panes']>): RefinementState => ({
+  ...STATE,
+  panes: { ...STATE.panes, ...patch },
+});
+
+describe('the answer of the picture', () => {
+  it('says how far off each mesh is, and at what cost', () => {
+    expect(answerSentence(STATE)).toBe(
+      'The multi-resolution skirt is 2.1 mm off the fine one, the coarse one 4.9 mm, at 10 % of its time.',
+    );
+    expect(answerSentence({ ...STATE, garment: 'trousers' })).toContain(
+      'trousers are 2.1 mm off the fine ones, the coarse ones 4.9 mm',
+    );
+    const here = withPanes({ planned: { ...planned, source: 'computed' } });
+    expect(answerSentence(here)).toContain('with 16 % of its vertices');
+    expect(answerSentence(withPanes({ planned: { ...planned, distanceM: null } }))).toBe('');
+  });
+
+  it('tells the numbers of the badges', () => {
+    for (const id of ['coarse', 'planned'] as const) {
+      const [length] = errorWords(id, STATE.panes[id]).split(' off');
+      expect(answerSentence(STATE)).toContain(length);
+    }
+  });
+
+  it('claims nothing where the planned mesh is not much nearer', () => {
+    const astray = withPanes({ planned: { ...planned, distanceM: 0.0048 } });
+    expect(answerSentence(astray)).toMatch(
+      /^Once they move, .* 4\.8 mm off the fine one, the coarse one 4\.9 mm\.$/,
+    );
+    expect(answerSentence(astray)).not.toContain('%');
+  });
+
+  it('claims nothing where cloth is through itself, and says where', () => {
+    const tangled = withPanes({ fine: { ...fine, faults: { ...NO_FAULTS, n_crossings: 609 } } });
+    expect(tangleSentence(STATE)).toBeNull();
+    expect(answerSentence(tangled)).toBe(tangleSentence(tangled));
+    expect(answerSentence(tangled)).toContain('coarse 0, multi-resolution 0, fine 609');
+  });
+});

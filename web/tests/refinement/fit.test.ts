@@ -1,0 +1,145 @@
+// The light: what it says changed, and the number that decides, against the module's monitor.
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { beforeAll, describe, expect, it } from 'vitest';
+import type { FitAnswer, RefinementModule } from '../../src/refinement/bindings/refinement-module';
+import {
+  anewSentence,
+  changeSentence,
+  fitReading,
+  ruleSentence,
+} from '../../src/refinement/panels/fit-words';
+import { sceneFiles } from '../../src/refinement/run/scene-files';
+import { type Fit, LastingShare } from '../../src/refinement/state/fit';
+import { LARGEST_SHARE } from '../../src/refinement/state/garment-frames';
+import { sceneText } from '../../src/refinement/state/garments';
+import type { PlanStory } from '../../src/refinement/state/plan-file';
+import {
+  canPlanAnew,
+  DEFAULT_LINK,
+  initialRefinementState,
+  isExample,
+} from '../../src/refinement/state/refinement-state';
+import { readRecording } from '../../src/refinement/worker/recording';
+import { fabricsText } from '../../src/shared/fabric/fabric-data';
+import { loadModule } from '../support/built-module';
+import { recordBytes } from '../support/garment-workers';
+
+let module: RefinementModule;
+beforeAll(async () => {
+  module = await loadModule();
+});
+
+const STORY: PlanStory = {
+  examples: ['skirt_walk'],
+  patterns: [],
+  nVertices: 900,
+  hasLimits: true,
+  nSplits: 30,
+  nForBalance: 4,
+  isByShape: true,
+  rule: { kind: 'demand', value: 3 },
+};
+
+const FIT: Fit = {
+  share: 0.01,
+  worst_share: 0.09,
+  lasting_share: 0.02,
+  n_in_a_row: 0,
+  n_frames: 30,
+  fires: false,
+  first_fired: null,
+};
+
+/** A frame of the fast walk in which next to no face bends too far. */
+const CALM_FRAME = 24;
+
+const STATE = initialRefinementState(DEFAULT_LINK, []);
+const FIRED = { ...FIT, lasting_share: 0.0612, fires: true, first_fired: 34 };
+
+describe('the light', () => {
+  it('is lit by what the monitor says', () => {
+    const light = (fit: Fit | null, story: PlanStory | null = STORY) =>
+      fitReading(fit, story, STATE).light;
+    expect(light(null)).toBe('unknown');
+    expect(light(FIT, null)).toBe('unknown');
+    expect(light(FIT)).toBe('fits');
+    expect(light({ ...FIT, share: 0.2, n_in_a_row: 3 })).toBe('uneasy');
+    expect(light(FIRED)).toBe('fires');
+    // A second of motion has to be seen before it is said to fit, not before it is said not to.
+    expect(light({ ...FIT, n_frames: 29 })).toBe('watching');
+    expect(light({ ...FIRED, n_frames: 12 })).toBe('fires');
+    // Once it has fired the plan stays doubtful.
+    expect(light({ ...FIRED, fires: false })).toBe('fires');
+  });
+
+  it('tells the number that decides, not that of the worst frame, beside the bound', () => {
+    const calm = fitReading(FIT, STORY, STATE).detail;
+    expect(calm).toContain('At most 2.0 % of the faces bent too far for 10 frames in a row; 5.0 %');
+    expect(calm).not.toContain('9.0');
+    expect(fitReading(FIRED, STORY, STATE).detail).toContain('Up to 6.1 %');
+    const uneasy = fitReading({ ...FIT, share: 0.2, n_in_a_row: 3 }, STORY, STATE).detail;
+    expect(uneasy).toContain('3 of 10 frames');
+    expect(ruleSentence(STORY)).toMatch(/more than 5\.0 % .* 10 frames in a row/);
+  });
+
+  it('names what changed since the example: the motion, the fabric, or both', () => {
+    const of = (patch: Partial<typeof STATE>) => changeSentence({ ...STATE, ...patch });
+    expect(of({ motion: 'walk' })).toBe('Nothing changed: it is an example.');
+    expect(of({ motion: 'fast_walk' })).toBe('Changed: motion (fast walk).');
+    expect(of({ motion: 'walk', fabric: 'silk' })).toBe('Changed: fabric (silk).');
+    expect(of({ motion: 'squat', fabric: 'silk' })).toBe(
+      'Changed: fabric (silk) and motion (squat).',
+    );
+    // A further example is of the shown fabric.
+    const further = ['squat'] as const;
+    expect(of({ motion: 'squat', fabric: 'silk', further })).toContain('Nothing changed');
+    expect(of({ motion: 'walk', fabric: 'silk', further })).toBe(
+      'Changed: silk and normal walk together.',
+    );
+    expect(fitReading(FIRED, STORY, { ...STATE, fabric: 'silk' }).detail).toContain(
+      'fabric (silk)',
+    );
+  });
+
+  it('is followed by an offer of a plan for a motion that did not fit and is no example', () => {
+    const squat = { ...STATE, phase: 'ready' as const, motion: 'squat' as const, fit: FIRED };
+    expect(canPlanAnew(squat)).toBe(true);
+    expect(anewSentence(squat)).toContain('on the fine mesh');
+    expect(canPlanAnew({ ...squat, fit: FIT })).toBe(false);
+    expect(anewSentence({ ...squat, fit: FIT })).toContain('once the light says so');
+    expect(canPlanAnew({ ...squat, phase: 'loading' })).toBe(false);
+    const known = { ...squat, further: ['squat' as const] };
+    expect(canPlanAnew(known)).toBe(false);
+    expect(anewSentence(known)).toContain('already');
+    // The example that comes with the page is of one fabric.
+    const walk = { ...squat, motion: 'walk' as const };
+    expect(isExample(walk)).toBe(true);
+    expect(canPlanAnew({ ...walk, fabric: 'silk' })).toBe(true);
+  });
+
+  it('goes by a number that exceeds its bound in the very frame in which the monitor fires', async () => {
+    const root = fileURLToPath(new URL('../../..', import.meta.url));
+    const path = `${root}/assets/recordings/skirt_walk/plan.json`;
+    const plan = JSON.parse(readFileSync(path, 'utf8'));
+    const run = new module.GarmentRun(fabricsText);
+    const text = sceneText('skirt', 'walk', 'fine cotton', { plan });
+    expect(JSON.parse(run.load(text, await sceneFiles('skirt', recordBytes)))).toMatchObject({
+      ok: true,
+    });
+    const file = await recordBytes('assets/recordings/skirt_fast_walk/planned.recording');
+    const record = await readRecording(new Uint8Array(file), run.parents().slice());
+    const calm = record?.frames[CALM_FRAME] ?? new Float32Array(0);
+    const crumpled = calm.map((value, k) => value + 0.03 * Math.sin(7.7 * k));
+    const lasting = new LastingShare();
+    const isCrumpled = (frame: number) => (frame > 3 && frame < 12) || frame > 14;
+    for (let frame = 0; frame < 30; ++frame) {
+      run.put(isCrumpled(frame) ? crumpled : calm, frame / 30);
+      const seen: FitAnswer = JSON.parse(run.addShownFrame());
+      expect(seen.share > LARGEST_SHARE).toBe(isCrumpled(frame));
+      expect(lasting.add(seen.share) > LARGEST_SHARE).toBe(seen.first_fired !== null);
+      expect(seen.first_fired !== null).toBe(frame >= 24);
+    }
+    run.delete();
+  });
+});
