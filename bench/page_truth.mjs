@@ -1,9 +1,11 @@
 // ./pleat bench page_truth (--help tells the options)
-// Truth of the page: whether it raises alarms over cloth that a visitor pulls, and whether what it
-// shows first is what somebody would take. It runs the page's WebAssembly.
+// Truth of the page: whether it raises alarms over cloth that a visitor pulls, and whether its first
+// pictures show what they are to show. It runs the page's WebAssembly.
 import { runParts } from './parts/bench-parts.mjs';
-import { pulls, sweep } from './parts/page-truth-pulls.mjs';
+import { firstPictures } from './parts/page-truth-first-pictures.mjs';
+import { pulls } from './parts/page-truth-pulls.mjs';
 import { sweep } from './parts/page-truth-sweep.mjs';
 
-const purpose = 'whether what the page says of the cloth is true';
-await runParts('page_truth', purpose, { pulls, sweep }, { isScaled: false });
+const purpose = 'whether what the page says and shows of the cloth is true';
+const parts = { pulls, first_pictures: firstPictures, sweep };
+await runParts('page_truth', purpose, parts, { isScaled: false });
