@@ -128,7 +128,7 @@ export function createModesView(root: HTMLElement, hash: string): View {
   const hands = new Hands(store, run);
   picture.open(canvas, hands);
   createWorkingBar(stageBox, store, () => run.cancel());
-  createFailureBanner(messages, store);
+  createFailureBanner(messages, store, () => run.retry());
   createAnnouncer(messages, store, modesSentence);
   createModesNumbers(numbers, store, () => hands.move());
   createModesTools(toolBox, store, {

@@ -13,7 +13,7 @@ import type { FromModal, ToModal } from '../../src/modes/worker/modal-protocol';
 import { inputFailure, sentenceOf } from '../../src/shared/bindings/answers';
 import { objText } from '../../src/shared/panels/saving';
 import { createStore } from '../../src/shared/state/store';
-import { createAsked } from '../../src/shared/workers/asked';
+import { createAsked, type Port } from '../../src/shared/workers/asked';
 import { loadModule } from '../support/built-module';
 import { workerPort } from '../support/worker-port';
 
@@ -22,20 +22,23 @@ let module: ModalModule;
 /** A view at a link, what it asked the worker for, and what it draws. */
 async function open(hash: string) {
   const asked: ToModal['type'][] = [];
-  const start: StartModal = (listener) =>
-    createAsked(
-      workerPort<ToModal, FromModal>((post) => {
-        const core = new ModalCore(module, post);
-        return {
-          receive(message) {
-            asked.push(message.type);
-            core.receive(message);
-          },
-          close: () => core.close(),
-        };
-      }),
-      listener,
-    );
+  const ports: Port[] = [];
+  const start: StartModal = (listener) => {
+    const port = workerPort<ToModal, FromModal>((post) => {
+      const core = new ModalCore(module, post);
+      return {
+        receive(message) {
+          asked.push(message.type);
+          core.receive(message);
+        },
+        close: () => core.close(),
+      };
+    });
+    ports.push(port);
+    return createAsked(port, listener);
+  };
+  /** The newest worker ends, as when the browser ends it. */
+  const kill = () => ports.at(-1)?.onmessage?.({ data: { broken: 'killed' } } as MessageEvent);
   const { link, problems } = decodeModesLink(hash);
   const store = createStore(initialModesState(link, problems));
   const drawn: { ghost: Float32Array | null; panes: number } = { ghost: null, panes: 0 };
@@ -68,7 +71,7 @@ async function open(hash: string) {
   };
   run.openModel(link.model, link);
   await settled();
-  return { run, store, asked, drawn, settled, editor: new KeyEditor(run) };
+  return { run, store, asked, drawn, settled, kill, editor: new KeyEditor(run) };
 }
 
 const fileOf = (name: string, text: string) => new File([text], name);
@@ -233,5 +236,29 @@ describe('run of modes', () => {
     expect({ model, amplitudes }).toEqual({ model: 'bar', amplitudes: [0, 0, 0.5] });
     expect(found?.modes.length).toBe(12);
     expect(keys.length).toBe(2);
+  });
+
+  it('goes on with another worker where its own has ended', async () => {
+    const { store, kill, settled } = await open('#view=modes&cells=2&mix=3:0.5');
+    kill();
+    await settled();
+    const { amplitudes, keys, found, completion, problem } = store.get();
+    expect(problem?.what).toMatch(/ended by itself \(killed\)\. It was started again\.$/);
+    expect(amplitudes).toEqual([0, 0, 0.5]);
+    expect(keys.map(({ origin }) => origin.kind)).toEqual(['rest', 'bent']);
+    expect(found?.modes.length).toBe(12);
+    expect(completion?.frames.length).toBe(17);
+  });
+
+  it('says so where two workers end in a row, and tries again when it is asked to', async () => {
+    const { run, store, kill, settled } = await open('#view=modes&cells=2');
+    kill();
+    kill();
+    expect(store.get().phase).toBe('broken');
+    expect(store.get().problem?.what).toMatch(/That happened twice/);
+    run.retry();
+    await settled();
+    expect(store.get().problem).toBe(null);
+    expect(store.get().found?.modes.length).toBe(12);
   });
 });

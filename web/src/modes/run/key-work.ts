@@ -36,7 +36,7 @@ export class KeyWork {
 
   constructor(
     private readonly store: Store<ModesState>,
-    private readonly client: () => ModalClient,
+    private readonly client: ModalClient,
     private readonly refuse: (failure: Failure) => void,
   ) {}
 
@@ -68,10 +68,10 @@ export class KeyWork {
     const changed = index === null ? undefined : keys[index];
     if (index !== null && changed) {
       const { positions } = changed;
-      return this.client().ask({ type: 'replace', index, positions, frames });
+      return this.client.ask({ type: 'replace', index, positions, frames });
     }
     const wish = volumeWish(this.store.get(), body);
-    return this.client().ask({
+    return this.client.ask({
       type: 'complete',
       keys: joined(keys),
       nKeys: keys.length,

@@ -31,7 +31,7 @@ export class ModeFinder {
 
   constructor(
     private readonly store: Store<ModesState>,
-    private readonly client: () => ModalClient,
+    private readonly client: ModalClient,
     private readonly refuse: (failure: Failure) => void,
   ) {}
 
@@ -50,7 +50,7 @@ export class ModeFinder {
     if (this.known.has(energy)) return true;
     const { known } = this;
     const wish = volumeWish(this.store.get(), body);
-    const question = answerOf(this.client().ask({ type: 'modes', energy, wish }), this.refuse);
+    const question = answerOf(this.client.ask({ type: 'modes', energy, wish }), this.refuse);
     const answer = await noticed(this.store, 'Finding the modes', question);
     if (!answer || known !== this.known) return false;
     this.take(body, answer);

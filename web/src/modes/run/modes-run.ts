@@ -14,14 +14,15 @@ import {
 } from '../../shared/state/obj-file';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
+import { endedSentence, Renewed } from '../../shared/workers/renewed';
 import type { Energy } from '../bindings/modal-module';
 import { DRAPE_FRAMES, DRAPE_FRAMES_PER_S, type KeyOrigin, remade } from '../state/key-shapes';
 import { BAR_SIDES_M, modelOf, OWN } from '../state/models';
 import { energiesOf, type ModesLink, type ModesState, usualLink } from '../state/modes-state';
-import type { Opened, OpenedMessage } from '../worker/modal-protocol';
+import type { ModalAnswers, Opened, OpenedMessage, ToModal } from '../worker/modal-protocol';
 import { Body } from './body';
 import { KeyWork } from './key-work';
-import { type ModalClient, type StartModal, startModalWorker } from './modal-client';
+import { type StartModal, startModalWorker } from './modal-client';
 import { ModeFinder } from './mode-finder';
 import { type ShapeView, Showing } from './showing';
 import { noticed } from './slow-work';
@@ -56,22 +57,25 @@ export class ModesRun {
   readonly finder: ModeFinder;
   readonly keyWork: KeyWork;
   readonly shown: Showing;
-  private client: ModalClient;
+  private readonly client: Renewed<ToModal, ModalAnswers>;
   private body: Body | null = null;
   private own: OwnMesh | null = null;
+  private wanted: Wanted | null = null; // the newest
   private last: Wanted | null = null; // the last one that had its modes
   private readonly latest = new Latest(); // opening
 
   constructor(
     readonly store: Store<ModesState>,
     private readonly view: ModesRunView,
-    private readonly start: StartModal = startModalWorker,
+    start: StartModal = startModalWorker,
   ) {
-    this.client = this.startClient();
-    const client = () => this.client;
+    this.client = new Renewed<ToModal, ModalAnswers>(start, {
+      renewed: (reason) => this.startAgain(reason),
+      lost: (reason, hasWorked) => this.breakDown(reason, hasWorked),
+    });
     const refuse = (failure: Failure) => this.refuse(failure);
-    this.finder = new ModeFinder(store, client, refuse);
-    this.keyWork = new KeyWork(store, client, refuse);
+    this.finder = new ModeFinder(store, this.client, refuse);
+    this.keyWork = new KeyWork(store, this.client, refuse);
     this.shown = new Showing(store, view);
   }
 
@@ -122,14 +126,16 @@ export class ModesRun {
 
   /** Gives up what takes long: keys that cannot be filled in between, or a body whose modes are not there yet. */
   cancel(): void {
-    const { working, found } = this.store.get();
-    if (working === null) return;
-    const now = this.now();
-    const keys = this.keyWork.known();
-    this.client.terminate();
-    this.client = this.startClient();
+    if (this.store.get().working === null) return;
+    const again = this.lastGood();
+    this.client.replace();
     this.store.set({ working: null });
-    void this.open(found || !this.last ? { ...now, link: { ...now.link, keys } } : this.last);
+    void this.open(again);
+  }
+
+  /** Opens by another worker what could not be opened. */
+  retry(): void {
+    void this.open(this.lastGood());
   }
 
   refuse(failure: Failure): void {
@@ -157,11 +163,19 @@ export class ModesRun {
     return answer?.positions ?? null;
   }
 
-  private startClient(): ModalClient {
-    return this.start({
-      broken: (reason) =>
-        this.store.set({ phase: 'broken', problem: brokenFailure('Modes', reason) }),
-    });
+  /** The worker has a successor, which opens what the other one had. */
+  private startAgain(reason: string): void {
+    const again = this.lastGood();
+    const sentence = `${endedSentence(reason)} It was started again.`;
+    this.store.set({ working: null, problem: inputFailure(sentence) });
+    void this.open(again);
+  }
+
+  private breakDown(reason: string, hasWorked: boolean): void {
+    const problem = hasWorked
+      ? inputFailure(`${endedSentence(reason)} That happened twice.`)
+      : brokenFailure('Modes', reason);
+    this.store.set({ phase: 'broken', playing: false, working: null, problem });
   }
 
   /** A link with the settings that stay from one model to the next. */
@@ -181,6 +195,15 @@ export class ModesRun {
       link: { ...shown, showing, time, ghost, edges, keys },
       own: model === OWN ? this.own : null,
     };
+  }
+
+  /** The shown model with the keys that its worker knew, or the last one that had its modes. */
+  private lastGood(): Wanted {
+    if (!this.body && this.wanted) return this.wanted;
+    const now = this.now();
+    const keys = this.keyWork.known();
+    const isFound = this.store.get().found !== null;
+    return isFound || !this.last ? { ...now, link: { ...now.link, keys } } : this.last;
   }
 
   private async textOf({ link, own }: Wanted): Promise<Opened> {
@@ -203,7 +226,13 @@ export class ModesRun {
     const isCurrent = this.latest.start();
     const before = this.now();
     const isOther = !this.body || before.link.model !== link.model || before.own !== own;
-    if (this.store.get().found) this.last = before;
+    const { found, phase } = this.store.get();
+    if (found) this.last = before;
+    this.wanted = wanted;
+    if (phase === 'broken') {
+      this.client.replace();
+      this.store.set({ problem: null });
+    }
     this.store.set({ phase: 'loading', playing: false });
     const refuse = (failure: Failure) => {
       const problem = own ? named(failure, own.file) : failure;
@@ -224,6 +253,7 @@ export class ModesRun {
     await this.fill(body, link);
     if (!isCurrent()) return;
     if (this.store.get().phase === 'loading') this.store.set({ phase: 'ready' });
+    if (this.store.get().found) this.client.prove();
     if (isOther) this.view.framed();
   }
 

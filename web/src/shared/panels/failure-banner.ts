@@ -8,14 +8,20 @@ interface Failing {
   phase: string;
 }
 
-/** A banner that says what went wrong in a sentence. */
-export function createFailureBanner(parent: HTMLElement, store: Store<Failing>): void {
+/** A banner that says what went wrong in a sentence; `retry` starts anew what is broken. */
+export function createFailureBanner(
+  parent: HTMLElement,
+  store: Store<Failing>,
+  retry?: () => void,
+): void {
   const sentence = element('p');
+  const again = button('Try again', () => retry?.());
   const dismissal = button('Dismiss', () => store.set({ problem: null }));
-  const banner = element('div', { class: 'problem', role: 'alert' }, sentence, dismissal);
+  const banner = element('div', { class: 'problem', role: 'alert' }, sentence, again, dismissal);
   parent.append(banner);
   watch(store, ['problem', 'phase'], ({ problem, phase }) => {
     banner.hidden = problem === null;
+    again.hidden = phase !== 'broken' || !retry;
     dismissal.hidden = phase === 'broken';
     if (!problem) return;
     setText(sentence, phase === 'broken' ? problem.what : sentenceOf(problem));
