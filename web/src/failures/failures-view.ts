@@ -8,16 +8,17 @@ import { fabricNamed } from '../shared/fabric/fabric-data';
 import { createAnnouncer } from '../shared/panels/announcer';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
-import { createKeyList, RUN_KEYS } from '../shared/panels/keys-panel';
+import { createKeyList, HAND_KEYS } from '../shared/panels/keys-panel';
 import { openStage } from '../shared/panels/open-stage';
 import { createStageCanvas } from '../shared/panels/stage-canvas';
+import type { HeldStageEvents } from '../shared/stage/held-stage';
 import { createLinkWriter } from '../shared/state/link-writer';
-import { createStore, type Store } from '../shared/state/store';
+import { createStore, type Store, watch } from '../shared/state/store';
 import { createCaseList } from './panels/case-list';
 import { createCaseStory } from './panels/case-story';
 import { createDuelTools } from './panels/duel-tools';
 import { createSideBadges } from './panels/side-badges';
-import { SIGN_TITLES, signsOf } from './panels/sign-words';
+import { signsOf } from './panels/sign-words';
 import { Duel, type DuelView } from './run/duel';
 import { createDuelStage, type DuelStage } from './stage/duel-stage';
 import { decodeFailuresLink, encodeFailuresLink } from './state/failures-link';
@@ -26,14 +27,14 @@ import { type FailuresState, initialFailuresState } from './state/failures-state
 /** Panes narrower than this stand one above the other [CSS pixels]. */
 const LEAST_PANE_WIDTH = 240;
 
-/** The cloth of hard cases has a colour of its own, whatever it is made of. */
+/** The cloth of all cases has one colour, whatever it is made of. */
 const SHOWN_FABRIC = 'fine cotton';
 
 /** Says when a sign is first seen. */
 function sentenceFor(state: FailuresState, previous: FailuresState): string | null {
-  const [now] = signsOf(state.sides.naive);
-  const [before] = signsOf(previous.sides.naive);
-  return now && !before ? `Naive: ${SIGN_TITLES[now.sign]}. ${now.sentence}` : null;
+  const [now] = signsOf(state, 'naive');
+  const [before] = signsOf(previous, 'naive');
+  return now && !before ? `Naive: ${now.title}. ${now.sentence}` : null;
 }
 
 /** The parts of the view, empty. */
@@ -61,14 +62,15 @@ class Picture implements DuelView {
     { stageBox, badges }: { stageBox: HTMLElement; badges: HTMLElement },
     canvas: HTMLCanvasElement,
     store: Store<FailuresState>,
-    key: (name: string) => boolean,
+    events: Omit<HeldStageEvents, 'pictureLost'>,
   ): void {
     const stage = openStage(canvas, store, (pictureLost) =>
-      createDuelStage(stageBox, canvas, { key, pictureLost }),
+      createDuelStage(stageBox, canvas, { ...events, pictureLost }),
     );
     this.stage = stage;
     if (!stage) return;
     stage.setFabric(fabricNamed(SHOWN_FABRIC).id);
+    watch(store, ['edges'], ({ edges }) => stage.setEdges(edges));
     new ResizeObserver(() => {
       const nColumns = stageBox.clientWidth < 2 * LEAST_PANE_WIDTH ? 1 : 2;
       badges.style.setProperty('--columns', String(nColumns));
@@ -92,6 +94,7 @@ class Picture implements DuelView {
   frame: DuelView['frame'] = (colliders) => this.stage?.frame(colliders);
   follow: DuelView['follow'] = (pane) => this.stage?.follow(pane);
   homeView = () => this.stage?.homeView();
+  project = (vertex: number, pane?: number) => this.stage?.project(vertex, pane);
 
   positions(pane: number): number[] {
     const buffer = this.shown[pane];
@@ -106,7 +109,7 @@ export function createFailuresView(root: HTMLElement, hash: string): View {
   const { messages, badges, stageBox, toolBox, panel } = createLayout(root);
   const canvas = createStageCanvas(
     stageBox,
-    'A cloth by a naive method, and beside it by one that holds. Space plays, arrows turn the view.',
+    'A cloth by a naive method, and beside it by one that holds. Space plays, G takes the cloth, arrows turn the view.',
   );
   const picture = new Picture();
   const duel = new Duel(store, picture);
@@ -116,17 +119,22 @@ export function createFailuresView(root: HTMLElement, hash: string): View {
     '.': () => duel.step(),
     r: () => void duel.reset(),
   };
-  picture.open({ stageBox, badges }, canvas, store, (name) => {
-    keys[name]?.();
-    return name in keys;
+  picture.open({ stageBox, badges }, canvas, store, {
+    grab: (vertex, pane) => duel.grab(vertex, pane),
+    moveGrab: (target) => duel.moveGrab(target),
+    releaseGrab: () => duel.releaseGrab(),
+    key(name) {
+      keys[name]?.();
+      return name in keys;
+    },
   });
-  createFailureBanner(messages, store);
+  createFailureBanner(messages, store, () => duel.retry());
   createAnnouncer(messages, store, sentenceFor);
   createSideBadges(badges, store);
   createDuelTools(toolBox, store, duel, picture.homeView);
   createCaseList(panel, store);
   createCaseStory(panel, store);
-  createKeyList(panel, RUN_KEYS);
+  createKeyList(panel, HAND_KEYS);
 
   const link = () => `#${encodeFailuresLink(store.get())}`;
   const writeLink = createLinkWriter(store, link, () => isShown);
@@ -145,6 +153,7 @@ export function createFailuresView(root: HTMLElement, hash: string): View {
     probe: {
       state: () => store.get(),
       positions: (pane = 0) => picture.positions(pane),
+      project: (vertex: number, pane = 0) => picture.project(vertex, pane),
     },
   };
 }

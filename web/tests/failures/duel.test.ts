@@ -12,8 +12,8 @@ import { MotionCore } from '../../src/shared/workers/motion-core';
 import type { FromMotion } from '../../src/shared/workers/motion-protocol';
 import { loadFirst } from '../support/built-module';
 
-/** A worker's end without a worker: each question is answered a moment later. */
-function clientOf(module: PleatModule): MotionClient {
+/** A worker's end without a worker: each question is answered a moment later, unless it `isDead` by then. */
+function clientOf(module: PleatModule, isDead: () => boolean = () => false): MotionClient {
   let answer: FromMotion | null = null;
   const core = new MotionCore(module, (message) => {
     answer = message;
@@ -21,6 +21,7 @@ function clientOf(module: PleatModule): MotionClient {
   return {
     async ask(question) {
       await new Promise((resume) => setTimeout(resume));
+      if (isDead()) throw new BrokenWorker('killed');
       core.receive(question);
       return answer as unknown as never;
     },
@@ -32,11 +33,10 @@ function clientOf(module: PleatModule): MotionClient {
 function createDuel(module: PleatModule, caseId: string) {
   const store = createStore<FailuresState>(initialFailuresState(caseId, []));
   const shown: (ArrayBuffer | null)[] = [null, null];
-  const nSprings = [0, 0];
+  const ends: (() => void)[] = []; // of the workers, in the order of their start
   const view: DuelView = {
-    showMesh(pane, { springEnds }) {
+    showMesh(pane) {
       shown[pane] = null;
-      nSprings[pane] = springEnds.length / 2;
     },
     showFrame(pane, buffer) {
       const before = shown[pane] ?? null;
@@ -49,7 +49,14 @@ function createDuel(module: PleatModule, caseId: string) {
   };
   let nowMs = 0;
   const duel = new Duel(store, view, {
-    start: () => clientOf(module),
+    start({ broken }) {
+      let isDead = false;
+      ends.push(() => {
+        isDead = true;
+        broken?.('killed');
+      });
+      return clientOf(module, () => isDead);
+    },
     later: (callback) => void setTimeout(callback),
     nowMs: () => {
       nowMs += 20;
@@ -62,7 +69,7 @@ function createDuel(module: PleatModule, caseId: string) {
   };
   const positions = (pane: number) =>
     Array.from(frameViews(shown[pane] ?? new ArrayBuffer(0)).positions);
-  return { duel, store, until, positions, nSprings };
+  return { duel, store, until, positions, ends };
 }
 
 describe('a duel', () => {
@@ -86,36 +93,69 @@ describe('a duel', () => {
     expect(positions(1)).toEqual(rest);
   });
 
-  it('keeps the last good frame of a side that ended, while the other goes on', async () => {
-    const module = await loadFirst();
-    const { duel, until, positions } = createDuel(module, 'hundredfold_stiffness');
-    await until(({ phase }) => phase === 'ready');
-    const rest = positions(0);
-    for (let step = 1; step <= 3; ++step) {
-      duel.step();
-      await until(({ timeS }) => timeS > (step - 0.5) / 60);
-    }
-    const { sides } = await until(() => true);
-    expect(sides.naive.ended?.sentence).toMatch(/diverged/);
-    expect(sides.ours.ended).toBe(null);
-    expect(positions(0)).toEqual(rest);
-    expect(positions(1)).not.toEqual(rest);
-  });
-
   it('drops what belonged to the case before', async () => {
     const module = await loadFirst();
-    const { duel, store, until, nSprings } = createDuel(module, 'needle_cells');
+    const { duel, store, until } = createDuel(module, 'tumbling');
     await until(({ phase }) => phase === 'ready');
     duel.step();
-    store.set({ caseId: 'tumbling' });
+    store.set({ caseId: 'heavy_bead' });
     const { timeS, sides } = await until(({ phase }) => phase === 'ready');
     expect(timeS).toBe(0);
     expect(sides.naive.warnings).toEqual([]);
-    expect(nSprings[0]).toBeGreaterThan(0); // it is no surface
+  });
+
+  it('goes on beyond its end for a hand, which pulls the cloth of its pane alone', async () => {
+    const module = await loadFirst();
+    const { duel, until, positions } = createDuel(module, 'fast_groove');
+    await until(({ phase }) => phase === 'ready');
+    const { endS } = caseNamed('fast_groove');
+    duel.grab(0, 1);
+    duel.moveGrab([0, 3, -1]);
+    const { timeS } = await until((state) => state.timeS > endS + 0.1);
+    duel.releaseGrab();
+    duel.pause();
+    expect(timeS).toBeGreaterThan(endS);
+    expect(positions(1)[1]).toBeGreaterThan((positions(0)[1] ?? 0) + 0.1);
+    await duel.reset();
+    duel.play();
+    const end = await until(({ playing, timeS: now }) => now > 0 && !playing);
+    expect(end.timeS).toBeCloseTo(endS, 9);
+  });
+
+  it('begins anew, and says why, when a worker ends', async () => {
+    const module = await loadFirst();
+    const { duel, until, positions, ends } = createDuel(module, 'fast_groove');
+    await until(({ phase }) => phase === 'ready');
+    const rest = positions(0);
+    duel.step();
+    await until(({ timeS }) => timeS > 0);
+    ends[1]?.();
+    const { timeS, problem } = await until(({ phase }) => phase === 'ready');
+    expect(ends).toHaveLength(3);
+    expect(timeS).toBe(0);
+    expect(problem?.what).toMatch(
+      /ended by itself \(killed\).*both cloths are back at their start/,
+    );
+    expect(positions(0)).toEqual(rest);
+    duel.step();
+    await until(({ timeS: now }) => now > 0);
+  });
+
+  it('tries again when it is asked to, after a worker and its successor have ended', async () => {
+    const module = await loadFirst();
+    const { duel, until, ends } = createDuel(module, 'fast_groove');
+    await until(({ phase }) => phase === 'ready');
+    ends[0]?.();
+    ends[2]?.();
+    const { problem } = await until(({ phase }) => phase === 'broken');
+    expect(problem?.what).toMatch(/That happened twice/);
+    duel.retry();
+    const again = await until(({ phase }) => phase === 'ready');
+    expect(again.problem).toBe(null);
   });
 
   it('says so when a worker breaks', async () => {
-    const store = createStore<FailuresState>(initialFailuresState('tumbling', []));
+    const store = createStore<FailuresState>(initialFailuresState('fast_groove', []));
     const view: DuelView = {
       showMesh() {},
       showFrame: () => null,

@@ -1,17 +1,37 @@
 // Why the naive way breaks, what holds, and what told of it.
-import { element, setText } from '../../shared/panels/element';
-import { addSection, noteLine } from '../../shared/panels/section';
+import { button, checkBox, element, setText } from '../../shared/panels/element';
+import { save } from '../../shared/panels/saving';
+import { addSection, folded, noteLine } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
-import { caseNamed } from '../state/failure-cases';
+import { caseNamed, SIDES, sceneTextOf } from '../state/failure-cases';
 import type { FailuresState } from '../state/failures-state';
 import { signsOf } from './sign-words';
+
+/** The scene as a file, with the method of either side. */
+function createSceneFiles(store: Store<FailuresState>): HTMLElement {
+  const command = element('code');
+  const buttons = SIDES.map((side) =>
+    button(side === 'naive' ? 'Save naive' : 'Save ours', () => {
+      const one = caseNamed(store.get().caseId);
+      const text = new Blob([sceneTextOf(one, side)], { type: 'application/json' });
+      save(`${one.id}_${side}.json`, text);
+    }),
+  );
+  watch(store, ['caseId'], ({ caseId }) => setText(command, `./pleat run ${caseId}_naive.json`));
+  return folded(
+    'On a command line',
+    {},
+    noteLine('Its scene as a file runs there as well: ', command),
+    element('div', { class: 'row' }, ...buttons),
+  );
+}
 
 export function createCaseStory(parent: HTMLElement, store: Store<FailuresState>): void {
   const title = element('h2');
   const lesson = element('p');
   const remedy = element('p');
   const signs = element('ul', { class: 'signs', 'aria-live': 'polite' });
-  const command = element('code');
+  const edges = checkBox('Mesh', (isOn) => store.set({ edges: isOn }));
   addSection(
     parent,
     'The case',
@@ -20,19 +40,22 @@ export function createCaseStory(parent: HTMLElement, store: Store<FailuresState>
     remedy,
     element('h3', {}, 'What told of it'),
     signs,
-    noteLine('With every method, on a command line: ', command),
+    edges.label,
+    createSceneFiles(store),
   );
   watch(store, ['caseId'], ({ caseId }) => {
     const one = caseNamed(caseId);
     setText(title, one.title);
     setText(lesson, one.lesson);
     setText(remedy, `What holds: ${one.remedy}`);
-    setText(command, `./pleat hard-cases ${one.id}`);
   });
-  watch(store, ['sides'], ({ sides }) => {
+  watch(store, ['edges'], (state) => {
+    edges.input.checked = state.edges;
+  });
+  watch(store, ['sides'], (state) => {
     const sentences = [
-      ...signsOf(sides.naive).map(({ sentence }) => `Naive: ${sentence}`),
-      ...signsOf(sides.ours).map(({ sentence }) => `Ours: ${sentence}`),
+      ...signsOf(state, 'naive').map(({ sentence }) => `Naive: ${sentence}`),
+      ...signsOf(state, 'ours').map(({ sentence }) => `Ours: ${sentence}`),
     ];
     const shown = sentences.length > 0 ? sentences : ['Nothing yet: press Play.'];
     if (shown.join() === [...signs.children].map((item) => item.textContent).join()) return;

@@ -2,7 +2,7 @@
 import { element, setText } from '../../shared/panels/element';
 import { createRunTools, type Playable } from '../../shared/panels/run-tools';
 import { type Store, watch } from '../../shared/state/store';
-import { caseNamed } from '../state/failure-cases';
+import { caseNamed, STEP_S } from '../state/failure-cases';
 import type { FailuresState } from '../state/failures-state';
 
 const WORDS = {
@@ -22,6 +22,8 @@ export function createDuelTools(
   const time = element('output', { class: 'toolbar-time', 'aria-live': 'off' });
   parent.append(time);
   watch(store, ['timeS', 'caseId'], ({ timeS, caseId }) => {
-    setText(time, `${timeS.toFixed(2)} s of ${caseNamed(caseId).endS} s`);
+    const { endS } = caseNamed(caseId);
+    const isBeyond = timeS > endS + STEP_S / 2; // a hand pulls it
+    setText(time, `${timeS.toFixed(2)} s${isBeyond ? '' : ` of ${endS} s`}`);
   });
 }

@@ -4,7 +4,15 @@ import { milliseconds, percent } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import { caseNamed, SIDES, type Side } from '../state/failure-cases';
 import type { FailuresState } from '../state/failures-state';
-import { SIGN_TITLES, signsOf } from './sign-words';
+import { signsOf } from './sign-words';
+
+/** Least stretch that is many lengths, however many. */
+const MANY = 10;
+
+/** The largest stretch so far: a heap of cloth that has calmed down does not unsay it. */
+function stretchWords(most: number): string {
+  return most > MANY ? 'stretched many times over' : `stretched by ${percent(most)} at most`;
+}
 
 const SIDE_TITLES: Record<Side, string> = { naive: 'Naive', ours: 'Ours' };
 
@@ -21,19 +29,20 @@ function createBadge(parent: HTMLElement, side: Side) {
     sign,
   );
   parent.append(badge);
-  return ({ caseId, sides, timeS }: FailuresState) => {
-    const state = sides[side];
+  return (shown: FailuresState) => {
+    const { caseId, sides, timeS } = shown;
+    const { msPerStep, mostStretch } = sides[side];
     setText(method, caseNamed(caseId)[side].words);
     setText(
       numbers,
       timeS === 0
         ? 'not started'
-        : `${milliseconds(state.msPerStep)} a step, stretch ${percent(state.stretch)}`,
+        : `${milliseconds(msPerStep)} a step, ${stretchWords(mostStretch)}`,
     );
-    const [first] = signsOf(state);
+    const [first] = signsOf(shown, side);
     badge.classList.toggle('fired', first !== undefined);
     const calm = timeS === 0 ? '' : 'looks right';
-    setText(sign, first ? `${SIGN_TITLES[first.sign]}, ${first.timeS.toFixed(2)} s` : calm);
+    setText(sign, first ? `${first.title}, from ${first.timeS.toFixed(2)} s on` : calm);
   };
 }
 

@@ -1,10 +1,10 @@
 // The signs that a side shows, in words.
 import { digits } from '../../shared/panels/quantity';
 import { warningSentence } from '../../shared/panels/warning-words';
-import type { Sign } from '../state/failure-cases';
-import type { SideState } from '../state/failures-state';
+import { caseNamed, type Side, type Sign } from '../state/failure-cases';
+import type { FailuresState } from '../state/failures-state';
 
-export const SIGN_TITLES: Record<Sign, string> = {
+const SIGN_TITLES: Record<Exclude<Sign, 'measured'>, string> = {
   stretch: 'stretched beyond its load',
   speed: 'too fast to be true',
   unsolved: 'equations left unsolved',
@@ -16,25 +16,33 @@ export const SIGN_TITLES: Record<Sign, string> = {
 };
 
 export interface ShownSign {
-  sign: Sign;
+  title: string;
   timeS: number;
   sentence: string;
 }
 
 /** The signs that a side shows by now, the first one first. */
-export function signsOf({ warnings, ended }: SideState): ShownSign[] {
+export function signsOf({ caseId, sides }: FailuresState, side: Side): ShownSign[] {
+  const { warnings, ended, measured } = sides[side];
+  const { measure } = caseNamed(caseId);
   const signs = warnings.map(
     (warning): ShownSign => ({
-      sign: warning.kind,
+      title: SIGN_TITLES[warning.kind],
       timeS: warning.time_s,
       sentence: warningSentence(warning),
     }),
   );
   if (ended)
     signs.push({
-      sign: 'ended',
+      title: SIGN_TITLES.ended,
       timeS: ended.timeS,
       sentence: `The run ended at ${digits(ended.timeS, 2)} s: ${ended.sentence}. The last good frame stays.`,
+    });
+  if (measured && measure)
+    signs.push({
+      title: measure.title,
+      timeS: measured.timeS,
+      sentence: measure.sentence(measured.value),
     });
   return signs.sort((a, b) => a.timeS - b.timeS);
 }

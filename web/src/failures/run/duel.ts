@@ -1,6 +1,7 @@
 // Plays both sides of a case in step.
 
-import type { Collider } from '../../shared/bindings/geometry';
+import { inputFailure } from '../../shared/bindings/answers';
+import type { Collider, Triple } from '../../shared/bindings/geometry';
 import { brokenFailure, failureOf } from '../../shared/bindings/refusals';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import {
@@ -14,9 +15,10 @@ import { Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
 import { BrokenWorker } from '../../shared/workers/asked';
 import { type StartMotion, startMotionWorker } from '../../shared/workers/motion-client';
-import type { FrameMessage } from '../../shared/workers/motion-protocol';
+import { endedSentence } from '../../shared/workers/renewed';
 import { caseNamed, SIDES, type Side, STEP_S, sceneTextOf } from '../state/failure-cases';
-import { type FailuresState, freshSides, type SideState } from '../state/failures-state';
+import { type FailuresState, freshSides } from '../state/failures-state';
+import { sideAfter } from './side-reading';
 import { SideRun, type SideStart } from './side-run';
 
 /** The picture of a duel. */
@@ -38,17 +40,6 @@ export interface DuelParts extends Display {
 
 const BROWSER: DuelParts = { ...DISPLAY, start: startMotionWorker };
 
-function sideAfter(before: SideState, { report, hasEnded }: FrameMessage, msPerStep: number) {
-  if (!report) return before;
-  const { numbers, message } = report;
-  return {
-    warnings: numbers.warnings,
-    ended: hasEnded ? { sentence: message, timeS: numbers.time_s } : null,
-    stretch: numbers.largest_stretch,
-    msPerStep,
-  };
-}
-
 export class Duel {
   private readonly clock: Clock;
   private readonly sides: Record<Side, SideRun>;
@@ -57,6 +48,8 @@ export class Duel {
   private isStepping = false;
   private nSteps = 0;
   private msPerStep: number | null = null;
+  private held: SideRun | null = null;
+  private isPulled = false; // a hand took the cloth since it began
 
   constructor(
     private readonly store: Store<FailuresState>,
@@ -64,11 +57,14 @@ export class Duel {
     private readonly parts: DuelParts = BROWSER,
   ) {
     this.clock = createClock(parts);
-    const broken = (reason: string) => this.breakDown(reason);
-    const sideRun = () => new SideRun(parts.start({ broken }), fabricsText);
+    const sideRun = () =>
+      new SideRun(parts.start, fabricsText, {
+        renewed: (reason) => this.startAgain(reason),
+        lost: (reason, hasWorked) => this.breakDown(reason, hasWorked),
+      });
     this.sides = { naive: sideRun(), ours: sideRun() };
     store.subscribe((state, previous) => {
-      if (state.caseId !== previous.caseId) this.open();
+      if (state.caseId !== previous.caseId) this.retry();
     });
     this.open();
   }
@@ -96,13 +92,48 @@ export class Duel {
     return this.begin((side) => this.sides[side].reset(), false);
   }
 
+  /** Opens the case, by other workers where there are none. */
+  retry(): void {
+    if (this.store.get().phase === 'broken') {
+      for (const side of SIDES) this.sides[side].replace();
+      this.store.set({ problem: null });
+    }
+    this.open();
+  }
+
+  /** A hand takes the cloth of a pane: it moves, for as long as it is let. */
+  grab(vertex: number, pane: number): void {
+    const side = SIDES[pane];
+    if (!side || this.store.get().phase !== 'ready') return;
+    this.isPulled = true;
+    this.held = this.sides[side];
+    this.held.grab(vertex);
+    if (!this.store.get().playing) this.play();
+  }
+
+  moveGrab(target: Triple): void {
+    this.held?.moveGrab(target);
+  }
+
+  releaseGrab(): void {
+    this.held?.releaseGrab();
+    this.held = null;
+  }
+
   private open(): void {
     const one = caseNamed(this.store.get().caseId);
+    this.store.set({ speed: one.speed ?? 1 });
     void this.begin((side) => this.sides[side].load(sceneTextOf(one, side)), true);
   }
 
+  /** Steps to the end of the case; one whose cloth was pulled has none. */
+  private stepsLeft(): number {
+    if (this.isPulled) return Number.POSITIVE_INFINITY;
+    return Math.round(caseNamed(this.store.get().caseId).endS / STEP_S) - this.nSteps;
+  }
+
   private isAtEnd(): boolean {
-    return this.nSteps >= Math.round(caseNamed(this.store.get().caseId).endS / STEP_S);
+    return this.stepsLeft() <= 0;
   }
 
   /** One thing after the other: a step under way ends before cloth begins anew. */
@@ -133,6 +164,8 @@ export class Duel {
     this.follow();
     this.nSteps = 0;
     this.msPerStep = null;
+    this.held = null;
+    this.isPulled = false;
     this.store.set({ phase: 'ready', timeS: 0, sides: freshSides() });
   }
 
@@ -146,8 +179,7 @@ export class Duel {
   }
 
   private advance(wish: number): Promise<void> {
-    const end = Math.round(caseNamed(this.store.get().caseId).endS / STEP_S);
-    const count = Math.min(wish, end - this.nSteps);
+    const count = Math.min(wish, this.stepsLeft());
     this.isStepping = true;
     const done = this.stepBoth(count).then(
       () => undefined,
@@ -162,13 +194,15 @@ export class Duel {
 
   private async stepBoth(count: number): Promise<void> {
     const isCurrent = this.latest.mark();
-    const sides = { ...this.store.get().sides };
+    const { caseId, sides: before } = this.store.get();
+    const sides = { ...before };
     const begunMs = this.parts.nowMs();
     const frames = await Promise.all(
       SIDES.map(async (side) => {
         const frame = await this.sides[side].step(count);
         const msPerStep = (this.parts.nowMs() - begunMs) / count;
-        if (frame) sides[side] = sideAfter(sides[side], frame, msPerStep);
+        const measure = this.isPulled ? undefined : caseNamed(caseId).measure;
+        if (frame) sides[side] = sideAfter(sides[side], frame, msPerStep, measure);
         return frame;
       }),
     );
@@ -177,8 +211,8 @@ export class Duel {
     frames.forEach((frame, pane) => {
       const side = SIDES[pane];
       if (!frame || !side) return;
-      const before = this.view.showFrame(pane, frame.buffer);
-      if (before) this.sides[side].giveBack(before);
+      const shown = this.view.showFrame(pane, frame.buffer);
+      if (shown) this.sides[side].giveBack(shown);
     });
     const colliders = frames[SIDES.indexOf('ours')]?.colliders;
     if (colliders) this.view.setColliders(colliders);
@@ -192,12 +226,21 @@ export class Duel {
   }
 
   private giveUp(error: unknown): void {
-    if (error instanceof BrokenWorker) return; // its listener hears
+    if (error instanceof BrokenWorker) return; // its side hears
     this.store.set({ playing: false, problem: failureOf(error) });
   }
 
-  private breakDown(reason: string): void {
-    const problem = brokenFailure('The cloth', reason);
+  /** A worker has a successor: both cloths begin anew. */
+  private startAgain(reason: string): void {
+    const again = 'It was started again, and both cloths are back at their start.';
+    this.store.set({ problem: inputFailure(`${endedSentence(reason)} ${again}`) });
+    this.open();
+  }
+
+  private breakDown(reason: string, hasWorked: boolean): void {
+    const problem = hasWorked
+      ? inputFailure(`${endedSentence(reason)} That happened twice.`)
+      : brokenFailure('The cloth', reason);
     this.store.set({ phase: 'broken', playing: false, problem });
   }
 }

@@ -1,35 +1,48 @@
 // One side of a case: its worker, and the buffer in which its frames travel.
-import type { Collider } from '../../shared/bindings/geometry';
-import type { MotionClient } from '../../shared/workers/motion-client';
-import type { FrameMessage, LoadedMessage } from '../../shared/workers/motion-protocol';
+import type { Collider, Triple } from '../../shared/bindings/geometry';
+import type { StartMotion } from '../../shared/workers/motion-client';
+import type {
+  FrameMessage,
+  LoadedMessage,
+  MotionAnswers,
+  ToMotion,
+} from '../../shared/workers/motion-protocol';
+import { Renewed, type RenewedEvents } from '../../shared/workers/renewed';
 
 export interface SideStart {
   triangles: Uint32Array;
-  /** Two vertices a spring, of cloth that is no surface; else empty. */
-  springEnds: Uint32Array;
   buffer: ArrayBuffer;
   nVertices: number;
   colliders: Collider[];
 }
 
 export class SideRun {
+  private readonly client: Renewed<ToMotion, MotionAnswers>;
   private spare: ArrayBuffer | null = null; // the buffer that is not shown
   private hasEnded = false;
 
   constructor(
-    private readonly client: MotionClient,
-    fabricsText: string,
+    start: StartMotion,
+    private readonly fabricsText: string,
+    events: RenewedEvents,
   ) {
-    client.tell({ type: 'open', fabricsText });
+    this.client = new Renewed<ToMotion, MotionAnswers>(start, {
+      ...events,
+      renewed: (reason) => {
+        this.open();
+        events.renewed(reason);
+      },
+    });
+    this.open();
   }
 
   async load(sceneText: string): Promise<SideStart> {
     const question = { type: 'load', sceneText, keepMotion: false } as const;
-    return this.start(await this.client.ask(question));
+    return this.begin(await this.client.ask(question));
   }
 
   async reset(): Promise<SideStart> {
-    return this.start(await this.client.ask({ type: 'reset' }));
+    return this.begin(await this.client.ask({ type: 'reset' }));
   }
 
   /** The frame after so many steps; null once the run has ended. */
@@ -50,15 +63,33 @@ export class SideRun {
     this.spare = buffer;
   }
 
-  private async start(loaded: LoadedMessage): Promise<SideStart> {
-    const { triangles, buffers, colliders, summary } = loaded;
+  grab(vertex: number): void {
+    this.client.tell({ type: 'grab', vertex });
+  }
+
+  moveGrab(target: Triple): void {
+    this.client.tell({ type: 'moveGrab', target });
+  }
+
+  releaseGrab(): void {
+    this.client.tell({ type: 'releaseGrab' });
+  }
+
+  /** Another worker, which has nothing loaded. */
+  replace(): void {
+    this.client.replace();
+    this.open();
+  }
+
+  private open(): void {
+    this.client.tell({ type: 'open', fabricsText: this.fabricsText });
+  }
+
+  private begin({ triangles, buffers, colliders, summary }: LoadedMessage): SideStart {
     const [buffer, spare] = buffers;
     this.spare = spare;
     this.hasEnded = false;
-    const springEnds =
-      triangles.length > 0
-        ? new Uint32Array(0)
-        : (await this.client.ask({ type: 'readSprings' })).ends;
-    return { triangles, springEnds, buffer, colliders, nVertices: summary.n_vertices };
+    this.client.prove();
+    return { triangles, buffer, colliders, nVertices: summary.n_vertices };
   }
 }

@@ -1,21 +1,13 @@
-// The picture of both sides, in two panes under one camera.
+// The picture of both sides, in two panes under one camera, with a hand that takes the cloth in either.
 import { Box3, Vector3 } from 'three';
 import type { Collider } from '../../shared/bindings/geometry';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
 import { floorHeight, frame, framedSphere } from '../../shared/stage/framing';
-import { createPaneStage } from '../../shared/stage/pane-stage';
-import { createSpringLines, type SpringLines } from '../../shared/stage/spring-lines';
-
-export interface DuelStageEvents {
-  key(name: string): boolean;
-  pictureLost(isLost: boolean): void;
-}
+import { createHeldStage, type HeldStageEvents } from '../../shared/stage/held-stage';
 
 export interface DuelMesh {
   triangles: Uint32Array;
-  /** Two vertices a spring: lines that are drawn. */
-  springEnds: Uint32Array;
   nVertices: number;
 }
 
@@ -25,46 +17,36 @@ const N_PANES = 2;
 export function createDuelStage(
   parent: HTMLElement,
   canvas: HTMLCanvasElement,
-  events: DuelStageEvents,
+  events: HeldStageEvents,
 ) {
   const clothes: readonly [ClothMesh, ClothMesh] = [createClothMesh(), createClothMesh()];
   const clothOf = (pane: number) => clothes[pane === 0 ? 0 : 1];
-  const springs: readonly [SpringLines, SpringLines] = [createSpringLines(), createSpringLines()];
-  const hasSprings = [false, false];
-  const springsOf = (pane: number) => springs[pane === 0 ? 0 : 1];
-  for (const cloth of clothes) cloth.setEdges(true);
-  const stage = createPaneStage(parent, canvas, {
+  const parts = {
     fov: 32,
-    objects: [...clothes, ...springs].map(({ object }) => object),
+    objects: clothes.map(({ object }) => object),
     isReady: () => clothOf(0).positions().length > 0,
-    prepare(shown) {
+    prepare(shown: number) {
       clothes.forEach((cloth, pane) => {
         cloth.object.visible = pane === shown;
-        springsOf(pane).object.visible = pane === shown && hasSprings[pane] === true;
       });
       clothOf(shown).update();
-      springsOf(shown).update(clothOf(shown).positions());
     },
+    positions: (pane: number) => clothOf(pane).positions(),
+    triangles: () => clothOf(0).triangles(),
     drawn() {},
-    themed(colour) {
-      const line = colour('--spring-implicit');
-      for (const one of springs) one.setColours({ explicit: line, implicit: line });
-    },
-    key: events.key,
-    pictureLost: events.pictureLost,
-  });
+    themed() {},
+  };
+  const held = createHeldStage(parent, canvas, parts, events);
+  const { stage } = held;
   const { grid, redraw } = stage;
   grid.set(N_PANES, N_PANES);
   stage.open();
 
   return {
-    showMesh(pane: number, { triangles, springEnds, nVertices }: DuelMesh) {
+    showMesh(pane: number, { triangles, nVertices }: DuelMesh) {
       clothOf(pane).setTopology(triangles, nVertices);
-      hasSprings[pane] = springEnds.length > 0;
-      springsOf(pane).setSplit({
-        ends: springEnds,
-        isImplicit: new Int8Array(springEnds.length / 2),
-      });
+      held.drop();
+      held.invite(Math.floor(nVertices / 2)); // keys take it by its middle
     },
     showFrame(pane: number, buffer: ArrayBuffer) {
       clothOf(pane).setFrame(buffer, 'stretch');
@@ -75,6 +57,7 @@ export function createDuelStage(
     frame(colliders: Collider[]) {
       const sphere = framedSphere(clothOf(0).positions(), colliders);
       const floor = floorHeight(sphere, colliders);
+      held.setFloor(floor);
       frame(stage, sphere, floor);
       redraw();
     },
@@ -94,8 +77,13 @@ export function createDuelStage(
       for (const cloth of clothes) cloth.setLook(lookOf(id));
       redraw();
     },
+    setEdges(areShown: boolean) {
+      for (const cloth of clothes) cloth.setEdges(areShown);
+      redraw();
+    },
     homeView: stage.control.home,
-    positions: (pane: number) => clothOf(pane).positions(),
+    /** Pixels from the canvas's upper left corner to a vertex. */
+    project: (vertex: number, pane = 0) => held.project(vertex, pane),
   };
 }
 

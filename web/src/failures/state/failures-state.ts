@@ -8,8 +8,10 @@ export interface SideState {
   warnings: readonly RunWarning[];
   /** Why the run had to end, and when. */
   ended: { sentence: string; timeS: number } | null;
-  /** Largest |edge strain| now, as a ratio. */
-  stretch: number;
+  /** The case's own sign: when it was first seen, and its worst value. */
+  measured: { timeS: number; value: number } | null;
+  /** Largest |edge strain| since the start, as a ratio. */
+  mostStretch: number;
   /** Time of a step, as measured while it ran [ms]. */
   msPerStep: number | null;
 }
@@ -21,10 +23,18 @@ export interface FailuresState {
   speed: number;
   timeS: number;
   sides: Record<Side, SideState>;
+  /** The meshes are drawn. */
+  edges: boolean;
   problem: Failure | null;
 }
 
-const FRESH: SideState = { warnings: [], ended: null, stretch: 0, msPerStep: null };
+const FRESH: SideState = {
+  warnings: [],
+  ended: null,
+  measured: null,
+  mostStretch: 0,
+  msPerStep: null,
+};
 
 export function freshSides(): Record<Side, SideState> {
   return Object.fromEntries(SIDES.map((side) => [side, FRESH])) as Record<Side, SideState>;
@@ -38,6 +48,7 @@ export function initialFailuresState(caseId: string, problems: readonly string[]
     speed: 1,
     timeS: 0,
     sides: freshSides(),
+    edges: false,
     problem: problems.length > 0 ? inputFailure(`The link: ${problems.join('; ')}.`) : null,
   };
 }
