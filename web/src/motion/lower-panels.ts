@@ -2,6 +2,7 @@
 
 import { createKeyList, HAND_KEYS } from '../shared/panels/keys-panel';
 import { addSection } from '../shared/panels/section';
+import { createWhyLink } from '../shared/panels/why-link';
 import { type Store, watch } from '../shared/state/store';
 import { createConvergencePanel } from './panels/convergence/convergence-panel';
 import { createEnergyPanel } from './panels/energy/energy-panel';
@@ -57,13 +58,21 @@ function createLaterContact(parent: HTMLElement, store: Store<MotionState>): voi
   });
 }
 
+/** Leads from a warning in the banner to the case that shows it. */
+function linkBanner(messages: HTMLElement, store: Store<MotionState>): void {
+  const { link, show } = createWhyLink();
+  messages.querySelector('.problem')?.append(link);
+  watch(store, ['problem'], ({ problem }) => show(problem?.warning));
+}
+
 export function createLowerPanels(
-  panel: HTMLElement,
-  tray: HTMLElement,
+  place: (id: string) => HTMLElement,
   store: Store<MotionState>,
   run: MotionRun,
 ): void {
-  const showChart = createSweepTray(tray, store, run);
+  const panel = place('panel');
+  linkBanner(place('messages'), store);
+  const showChart = createSweepTray(place('tray'), store, run);
   createSweepPanel(panel, store, createLaterSweep(store), showChart);
   createLevelPanel(panel, store);
   createEnergyPanel(panel, store);

@@ -123,7 +123,7 @@ function createPanels(
   createMethodPanel(place('panel'), store, run);
   createDrawingPanel(place('panel'), store);
   const bringLower = later(store, 'The lower part of the panel', async () => {
-    (await import('./lower-panels')).createLowerPanels(place('panel'), place('tray'), store, run);
+    (await import('./lower-panels')).createLowerPanels(place, store, run);
   });
   watch(store, ['phase'], ({ phase }) => {
     if (phase !== 'loading') void bringLower();

@@ -3,6 +3,7 @@
 
 import { element, setText } from '../../shared/panels/element';
 import { createSegments } from '../../shared/panels/segments';
+import { createWhyLink } from '../../shared/panels/why-link';
 import { type Store, watch } from '../../shared/state/store';
 import {
   type GarmentPane,
@@ -41,7 +42,8 @@ function createWarning(store: Store<RefinementState>) {
   const sentence = element('p', { role: 'status' });
   let substeps: number | null = null;
   const remedy = element('button', { type: 'button', click: () => store.set({ substeps }) });
-  const warning = element('div', { class: 'pane-warning' }, sentence, remedy);
+  const { link, show: showWhy } = createWhyLink();
+  const warning = element('div', { class: 'pane-warning' }, sentence, remedy, link);
   return {
     warning,
     show(pane: GarmentPane) {
@@ -50,6 +52,7 @@ function createWarning(store: Store<RefinementState>) {
       remedy.hidden = substeps === null;
       setText(sentence, warningWords(pane));
       setText(remedy, `Take ${substeps} substeps`);
+      showWhy(pane.warnings[0]?.kind);
     },
   };
 }
