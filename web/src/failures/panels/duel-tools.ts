@@ -18,7 +18,9 @@ export function createDuelTools(
   run: Playable,
   homeView: () => void,
 ): void {
-  createRunTools(parent, store, run, homeView, WORDS, (phase) => phase === 'ready');
+  createRunTools(parent, store, run, homeView, WORDS, (phase) =>
+    ['ready', 'stopped'].includes(phase),
+  );
   const time = element('output', { class: 'toolbar-time', 'aria-live': 'off' });
   parent.append(time);
   watch(store, ['timeS', 'caseId'], ({ timeS, caseId }) => {

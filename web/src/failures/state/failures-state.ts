@@ -16,7 +16,7 @@ export interface SideState {
 
 export interface FailuresState {
   caseId: string;
-  phase: 'loading' | 'ready' | 'broken';
+  phase: 'loading' | 'ready' | 'stopped' | 'broken';
   playing: boolean;
   speed: number;
   timeS: number;

@@ -1,7 +1,7 @@
-// One side of a case: its worker, and the buffer in which its frames travel.
-import type { Collider } from '../../shared/bindings/geometry';
-import type { MotionClient } from '../../shared/workers/motion-client';
-import type { FrameMessage, LoadedMessage } from '../../shared/workers/motion-protocol';
+// One cloth of several in motion: its worker, and the buffer in which its frames travel.
+import type { Collider, Triple } from '../bindings/geometry';
+import type { MotionClient } from './motion-client';
+import type { FrameMessage, LoadedMessage } from './motion-protocol';
 
 export interface SideStart {
   triangles: Uint32Array;
@@ -43,6 +43,24 @@ export class SideRun {
     if (answer.type !== 'frame') return null;
     this.hasEnded = answer.hasEnded;
     return answer;
+  }
+
+  /** Takes hold of a vertex. */
+  grab(vertex: number): void {
+    this.client.tell({ type: 'grab', vertex });
+  }
+
+  moveGrab(target: Triple): void {
+    this.client.tell({ type: 'moveGrab', target });
+  }
+
+  releaseGrab(): void {
+    this.client.tell({ type: 'releaseGrab' });
+  }
+
+  /** Ends its worker, whatever it is doing. */
+  close(): void {
+    this.client.terminate();
   }
 
   /** Takes back a buffer whose frame is not shown any more. */
