@@ -184,4 +184,13 @@ describe('deformer', () => {
     expect(store.get().phase).toBe('broken');
     expect(store.get().problem?.what).toMatch(/three times/);
   });
+
+  it('tells how far the shape it found is stretched, and nothing of one that is not found', async () => {
+    const { store, deformer, found } = await open(SCENE);
+    deformer.nudge('middle', [0, 0.4, 0]);
+    await found();
+    expect(store.get().panes[0]?.reach?.longest).toBeGreaterThan(1.1);
+    deformer.resetHolds();
+    expect(store.get().panes[0]?.reach).toBeNull();
+  });
 });

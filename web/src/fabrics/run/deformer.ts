@@ -23,6 +23,7 @@ import { answerOf } from '../../shared/workers/asked';
 import { endedSentence, Restarts } from '../../shared/workers/restarts';
 import type { TermNumbers } from '../bindings/deform-module';
 import type { PaneState } from '../state/deform-state';
+import { type RestEdges, reachOf, restEdges } from '../state/edge-reach';
 import { EXPERIMENTS, type Experiment, ownExperiment } from '../state/experiments';
 import { type Comparison, titleOf } from '../state/fabric-choice';
 import type { FabricOrder } from '../state/fabric-order';
@@ -104,6 +105,7 @@ export class Deformer {
   private obj: OwnMesh | null = null; // the visitor's, as it was opened last
   private readonly restarts = new Restarts();
   private isOpen = false; // the worker has a cloth
+  private edges: RestEdges | null = null; // of the shown cloth
 
   constructor(
     private readonly store: Store<FabricsState>,
@@ -289,6 +291,7 @@ export class Deformer {
     if (own) this.obj = own;
     this.cloth = cloth;
     this.isOpen = true;
+    this.edges = restEdges(triangles, answer.rest_m);
     this.restarts.noteStart();
     this.shown = [];
     this.hand.drop();
@@ -325,7 +328,8 @@ export class Deformer {
     const { energy, terms, steps } = report;
     const isFound = status === 'converged' || status === 'not_converged';
     if (isFound) this.restarts.noteWork();
-    const numbers = { energy, terms, steps, status, updateMs };
+    const reach = isFound && this.edges ? reachOf(this.edges, frameViews(buffer).positions) : null;
+    const numbers = { energy, terms, steps, status, updateMs, reach };
     this.store.set({
       panes: panes.map((one, at): PaneState => (at === pane ? { ...one, ...numbers } : one)),
     });
