@@ -4,8 +4,9 @@
 import { runParts } from './parts/bench-parts.mjs';
 import { firstPictures } from './parts/page-truth-first-pictures.mjs';
 import { pulls } from './parts/page-truth-pulls.mjs';
+import { strips } from './parts/page-truth-strips.mjs';
 import { sweep } from './parts/page-truth-sweep.mjs';
 
 const purpose = 'whether what the page says and shows of the cloth is true';
-const parts = { pulls, first_pictures: firstPictures, sweep };
+const parts = { pulls, first_pictures: firstPictures, strips, sweep };
 await runParts('page_truth', purpose, parts, { isScaled: false });

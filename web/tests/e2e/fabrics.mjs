@@ -39,6 +39,211 @@ async function dragVertex(page, vertex, dx, dy, during = () => undefined) {
 
 const holdsOf = ({ pins, handles }) => [...pins, ...handles].map(({ name }) => name);
 
+/** Ends the newest worker of the page, as a browser short of memory does. */
+async function endWorker(page) {
+  await page
+    .workers()
+    .at(-1)
+    .evaluate(() => self.close());
+}
+
+const isAtRest = (page) =>
+  until(page, (state) => state.show === 'strips' && state.phase === 'done');
+
+async function checkStrips(harness) {
+  const { check, countColours, open } = harness;
+  const { visit, checkAccess, checkWidths, checkWithoutModule } = createVisitor(
+    harness,
+    isAtRest,
+    'fabrics: strips: ',
+  );
+
+  await check('fabrics: opens on fifteen strips over an edge, sorted by how far each droops', () =>
+    visit('#view=fabrics', async (page) => {
+      const { droops, sorted } = await stateOf(page);
+      expectThat(sorted.length === 15 && Object.keys(droops).length === 15, 'some are missing');
+      const angles = sorted.map((name) => droops[name]);
+      expectThat(
+        angles.every((angle, place) => place === 0 || angle >= angles[place - 1]),
+        `they droop by ${angles.join(', ')}`,
+      );
+      expectThat(sorted[0] === 'canvas' && sorted[14] === 'chiffon', `sorted: ${sorted}`);
+      for (const place of [0, 14])
+        expectThat((await positionsOf(page, place)).length === 3 * 72, `strip ${place} is missing`);
+      expectThat((await countColours(await picture(page))) > 100, 'the picture is blank');
+      const answer = await page.locator('.strips-answer').filter({ visible: true }).textContent();
+      expectThat(/canvas droops least, by \d+°; chiffon most, by \d+°/.test(answer), answer);
+      expectThat(page.url().includes('show=strips'), page.url());
+    }),
+  );
+
+  for (const [width, height] of [
+    [1280, 800],
+    [390, 844],
+    [1920, 1080],
+  ]) {
+    await check(`fabrics: at ${width} px each strip has its name, none over another`, () =>
+      visit(
+        '#view=fabrics',
+        async (page) => {
+          const boxes = await page.locator('.strip-name').evaluateAll((names) =>
+            names.map((name) => {
+              const range = document.createRange();
+              range.selectNodeContents(name);
+              const { left, right, top, bottom } = range.getBoundingClientRect();
+              return { left, right, top, bottom, words: name.textContent };
+            }),
+          );
+          const stage = await canvasOf(page).boundingBox();
+          expectThat(boxes.length === 15, `${boxes.length} names`);
+          for (const [place, a] of boxes.entries()) {
+            const isInside =
+              a.left >= stage.x &&
+              a.right <= stage.x + stage.width &&
+              a.bottom <= stage.y + stage.height;
+            expectThat(isInside, `${a.words} is outside of the picture`);
+            const over = boxes.find(
+              (b, other) =>
+                other > place &&
+                a.left < b.right &&
+                b.left < a.right &&
+                a.top < b.bottom &&
+                b.top < a.bottom,
+            );
+            expectThat(!over, `${a.words} lies over ${over?.words}`);
+          }
+        },
+        { width, height },
+      ),
+    );
+  }
+
+  await check('fabrics: strips can be stopped, and those that are left be let down', async () => {
+    const { page, close } = await open('#view=fabrics');
+    await until(page, ({ droops }) => droops && Object.keys(droops).length > 0);
+    await button(page, 'Stop').click();
+    const { phase, droops } = await stateOf(page);
+    expectThat(phase === 'stopped', `it is ${phase}`);
+    await page.waitForTimeout(300);
+    const later = Object.keys((await stateOf(page)).droops).length;
+    expectThat(later === Object.keys(droops).length, 'it goes on');
+    await button(page, 'Let the others down').click();
+    await isAtRest(page);
+    await close();
+  });
+
+  await check('fabrics: a strip that is read goes on into motion beside another fabric', () =>
+    visit('#view=fabrics', async (page) => {
+      await page.getByRole('button', { name: 'velvet' }).click();
+      const panel = page.getByRole('region', { name: 'Order of the strips' });
+      const words = await panel.textContent();
+      expectThat(/velvet: a bending rigidity of 22 µN·m/.test(words), words);
+      await button(page, 'See it in motion beside another').click();
+      const { pair } = await until(page, (state) => state.show === 'pair');
+      expectThat(pair[0] === 'velvet', `it shows ${pair}`);
+      await page.getByRole('radio', { name: 'All fifteen over an edge' }).check({ force: true });
+      await isAtRest(page);
+    }),
+  );
+
+  await check('fabrics: strips go on with another worker when theirs ends', async () => {
+    const { page, close } = await open('#view=fabrics');
+    await until(page, ({ droops }) => droops && Object.keys(droops).length > 0);
+    await endWorker(page);
+    await until(page, (state) => /ended by itself.*started again/.test(state.problem?.what));
+    await isAtRest(page);
+    await close();
+  });
+
+  await checkAccess('#view=fabrics', '#fabrics details');
+
+  await checkWidths('#view=fabrics', [
+    [320, 568],
+    [390, 844],
+    [768, 1024],
+  ]);
+
+  await checkWithoutModule('#view=fabrics', 'its words stay', async (page) => {
+    const words = await page.locator('#fabrics').textContent();
+    expectThat(/Which fabric is stiff\?/.test(words), 'the words are gone');
+  });
+}
+
+const isPairReady = (page) =>
+  until(page, (state) => state.show === 'pair' && state.phase === 'ready');
+
+async function checkPair(harness) {
+  const { check, countColours } = harness;
+  const { visit, checkAccess, checkWidths } = createVisitor(
+    harness,
+    isPairReady,
+    'fabrics: pair: ',
+  );
+
+  await check('fabrics: two fabrics begin alike, move in step, and part', () =>
+    visit('#view=fabrics&show=pair', async (page) => {
+      const befores = await Promise.all([0, 1].map((pane) => positionsOf(page, pane)));
+      expectThat(largestMove(...befores) === 0, 'they begin in different places');
+      expectThat((await countColours(await picture(page))) > 100, 'the picture is blank');
+      await button(page, 'Play').click();
+      await until(page, (state) => state.timeS > 1);
+      await button(page, 'Pause').click();
+      const { apartM } = await stateOf(page);
+      const afters = await Promise.all([0, 1].map((pane) => positionsOf(page, pane)));
+      for (const [pane, after] of afters.entries())
+        expectThat(largestMove(befores[pane], after) > 0.05, `pane ${pane} stays`);
+      expectThat(Math.abs(largestMove(...afters) - apartM) < 1e-6, `said to be ${apartM} m apart`);
+      expectThat(apartM > 0.005, `they are ${apartM} m apart`);
+      await choice(page, 'Scene').selectOption('Flag in the wind');
+      await until(page, (state) => state.scene === 'flag' && state.phase === 'ready');
+      await choice(page, 'Left').selectOption('wool');
+      await until(page, (state) => state.pair[0] === 'wool' && state.phase === 'ready');
+      await page.waitForFunction(() => /scene=flag&fabrics=wool/.test(window.location.hash));
+      await page.reload();
+      const { pair } = await isPairReady(page);
+      expectThat(pair[0] === 'wool', 'a reload forgets the fabric');
+    }),
+  );
+
+  await check('fabrics: one hand pulls both cloths', () =>
+    visit('#view=fabrics&show=pair', async (page) => {
+      const befores = await Promise.all([0, 1].map((pane) => positionsOf(page, pane)));
+      const vertex = await page.evaluate(() => window.pleat.inviting());
+      const { x, y } = await placeOn(page, vertex);
+      await page.mouse.move(x, y);
+      await page.mouse.down();
+      await page.mouse.move(x - 60, y - 60, { steps: 4 });
+      await until(page, (state) => state.timeS > 0.4);
+      const part = (positions) => positions.slice(3 * vertex, 3 * vertex + 3);
+      for (const pane of [0, 1]) {
+        const move = largestMove(part(befores[pane]), part(await positionsOf(page, pane)));
+        expectThat(move > 0.05, `pane ${pane} moved by ${move} m`);
+      }
+      await page.mouse.up();
+    }),
+  );
+
+  await check('fabrics: both begin anew when a worker ends in motion, and it is said', () =>
+    visit('#view=fabrics&show=pair&scene=strip', async (page) => {
+      await button(page, 'Play').click();
+      await until(page, (state) => state.timeS > 0.2);
+      await endWorker(page);
+      await until(page, (state) => /ended by itself.*started again/.test(state.problem?.what));
+      await isPairReady(page);
+      await button(page, 'Play').click();
+      await until(page, (state) => state.timeS > 0.2);
+    }),
+  );
+
+  await checkAccess('#view=fabrics&show=pair&scene=strip', '#fabrics details');
+
+  await checkWidths('#view=fabrics&show=pair&scene=strip', [
+    [320, 568],
+    [390, 844],
+    [768, 1024],
+  ]);
+}
+
 export async function checkFabrics(harness) {
   const { open, check, countColours } = harness;
   const { visit, checkAccess, checkWidths, checkWithoutModule } = createVisitor(
@@ -48,7 +253,7 @@ export async function checkFabrics(harness) {
   );
 
   await check('fabrics: loads still, a deformed cloth with a handle that asks to be pulled', () =>
-    visit('#view=fabrics', async (page) => {
+    visit('#view=fabrics&show=shapes', async (page) => {
       const { cloth, handles } = await stateOf(page);
       const before = await positionsOf(page);
       expectThat(largestMove(cloth.rest_m, before) > 0.05, 'the cloth is as it rests');
@@ -63,7 +268,7 @@ export async function checkFabrics(harness) {
   await check(
     'fabrics: a handle is dragged, the cloth follows at once, and it is found at rest',
     () =>
-      visit('#view=fabrics', async (page) => {
+      visit('#view=fabrics&show=shapes', async (page) => {
         const [before, still] = [await positionsOf(page), await picture(page)];
         const vertex = await page.evaluate(() => window.pleat.inviting());
         await dragVertex(page, vertex, 20, -90, async () => {
@@ -219,6 +424,8 @@ export async function checkFabrics(harness) {
       await until(page, (state) => state.panes.length === 15);
       await isFound(page);
       expectThat((await page.locator('.pane-badge').count()) === 15, 'there are not 15 badges');
+      const heading = page.getByText('They do not rank stiffness');
+      expectThat(await heading.isVisible(), 'nothing says what the shapes compare');
       for (let pane = 0; pane < 15; ++pane) {
         expectThat((await positionsOf(page, pane)).length === 3 * 961, `pane ${pane} is empty`);
       }
@@ -239,7 +446,7 @@ export async function checkFabrics(harness) {
       );
       await choice(page, 'Order').selectOption('Stiffest to bend first');
       const first = await list.getByRole('row').first().textContent();
-      expectThat(/^wool.*45 µN·m/.test(first), `the first is ${first}`);
+      expectThat(/^canvas.*82 µN·m/.test(first), `the first is ${first}`);
       expectThat(
         /do not say which of two/.test(await note.textContent()),
         'in another order weights are unexplained',
@@ -248,11 +455,11 @@ export async function checkFabrics(harness) {
       await until(page, (state) => state.panes.length === 15);
       await isFound(page);
       const badge = await page.locator('.pane-badge').first().textContent();
-      expectThat(/^wool.*45 µN·m/.test(badge), `the first badge says ${badge}`);
+      expectThat(/^canvas.*82 µN·m/.test(badge), `the first badge says ${badge}`);
       await page.reload();
       await isFound(page);
       expectThat(
-        (await stateOf(page)).panes[0].fabric.name === 'wool',
+        (await stateOf(page)).panes[0].fabric.name === 'canvas',
         'a reload forgets the order',
       );
     }),
@@ -410,7 +617,7 @@ export async function checkFabrics(harness) {
   );
 
   await check('fabrics: a fabric and a shape go over to motion, which starts from it', () =>
-    visit('#view=fabrics&scene=half_skirt&fabrics=velvet', async (page) => {
+    visit('#view=fabrics&scene=terms&fabrics=velvet&held=middle:0,-0.09,0', async (page) => {
       const shape = await positionsOf(page);
       await button(page, 'Start moving from this shape').click();
       await until(page, (state) => state.setting?.preset === 'obj' && state.phase === 'ready');
@@ -428,6 +635,35 @@ export async function checkFabrics(harness) {
       await isFound(page);
       await button(page, 'Carry this fabric over to motion').click();
       await until(page, (state) => state.setting?.fabric === 'velvet' && state.phase === 'ready');
+    }),
+  );
+
+  await check('fabrics: a shape that cloth does not bear starts no motion, and says why', () =>
+    visit('#view=fabrics&scene=terms&fabrics=silk', async (page) => {
+      await dragVertex(page, await page.evaluate(() => window.pleat.inviting()), 0, -140);
+      await isFound(page);
+      const start = button(page, 'Start moving from this shape');
+      expectThat(await start.isDisabled(), 'it starts all the same');
+      const why = page.locator('.start-reason').filter({ visible: true });
+      const words = await why.textContent();
+      expectThat(/^Stretched to [\d.]+ times .* about 1\.1/.test(words), `it says: ${words}`);
+    }),
+  );
+
+  await check('fabrics: shapes are there again when their worker ends, and can be pulled', () =>
+    visit('#view=fabrics&scene=terms&fabrics=wool', async (page) => {
+      const vertex = await page.evaluate(() => window.pleat.inviting());
+      await dragVertex(page, vertex, 0, -60);
+      await isFound(page);
+      const before = await positionsOf(page);
+      await endWorker(page);
+      await until(page, (state) => /ended by itself.*started again/.test(state.problem?.what));
+      await isFound(page);
+      const off = largestMove(before, await positionsOf(page));
+      expectThat(off < 1e-3, `it is ${off} m off`);
+      await dragVertex(page, vertex, 0, 40);
+      await isFound(page);
+      expectThat(largestMove(before, await positionsOf(page)) > 0.01, 'it can be pulled no more');
     }),
   );
 
@@ -510,5 +746,12 @@ export async function checkFabrics(harness) {
     [768, 1024],
   ]);
 
-  await checkWithoutModule('#view=fabrics', 'once it comes other views work', expectMotionWorks);
+  await checkWithoutModule(
+    '#view=fabrics&show=shapes',
+    'once it comes other views work',
+    expectMotionWorks,
+  );
+
+  await checkStrips(harness);
+  await checkPair(harness);
 }

@@ -18,8 +18,10 @@ import { workerPort } from '../support/worker-port';
 
 // The worker is a core in this thread. Messages to it and from it come later and in their order.
 let module: DeformModule;
-const start: StartDeform = (listener) =>
-  createAsked(
+let end: ((reason: string) => void) | undefined; // ends the worker that was started last
+const start: StartDeform = (listener) => {
+  end = listener.broken;
+  return createAsked(
     workerPort<ToDeform, FromDeform>((post) => {
       const core = new DeformCore(module, post, {
         later: () => setTimeout(() => core.advance(), 0),
@@ -29,6 +31,7 @@ const start: StartDeform = (listener) =>
     }),
     listener,
   );
+};
 
 /** The view's state at a link, with the frame of its first pane. */
 async function open(hash: string) {
@@ -146,5 +149,48 @@ describe('deformer', () => {
     expect(panes[0]?.fabric).toEqual({ kind: 'own', measures });
     const { recovery, stretch, bending } = measures;
     expect(encodeFabricsLink(store.get())).toContain(`own:${recovery},${stretch},${bending}&`);
+  });
+
+  it('shows the same with another worker when its own ends, and goes on', async () => {
+    const { store, deformer, found, offHold } = await open(SCENE);
+    deformer.nudge('middle', [0, 0.1, 0]);
+    await found();
+    const { cloth } = store.get();
+    end?.('the browser ended it without a word');
+    deformer.nudge('middle', [0, 0.2, 0]); // before the new one has any cloth
+    expect(store.get().phase).toBe('loading');
+    await found();
+    const { holds, problem, panes } = store.get();
+    expect(store.get().cloth).not.toBe(cloth);
+    expect(problem?.what).toMatch(/^The computation ended by itself \(the browser .*started again/);
+    expect(holds.find(({ name }) => name === 'middle')?.offset).toEqual([0, 0.1, 0]);
+    expect(panes[0]?.fabric).toEqual({ kind: 'named', name: 'wool' });
+    deformer.nudge('middle', [0, 0.05, 0]);
+    await found();
+    expect(offHold()).toBeLessThan(1e-6);
+  });
+
+  it('holds the cloth as at first after two ends in a row, and gives up after three', async () => {
+    const { store, deformer, found } = await open(SCENE);
+    deformer.nudge('middle', [0, 0.1, 0]);
+    await found();
+    end?.('out of memory');
+    end?.('out of memory');
+    expect(store.get().problem?.what).toMatch(/happened twice/);
+    await found();
+    const middle = store.get().holds.find(({ name }) => name === 'middle');
+    expect(middle?.offset).toEqual([0, 0, 0]);
+    for (let ends = 0; ends < 3; ++ends) end?.('out of memory');
+    expect(store.get().phase).toBe('broken');
+    expect(store.get().problem?.what).toMatch(/three times/);
+  });
+
+  it('tells how far the shape it found is stretched, and nothing of one that is not found', async () => {
+    const { store, deformer, found } = await open(SCENE);
+    deformer.nudge('middle', [0, 0.4, 0]);
+    await found();
+    expect(store.get().panes[0]?.reach?.longest).toBeGreaterThan(1.1);
+    deformer.resetHolds();
+    expect(store.get().panes[0]?.reach).toBeNull();
   });
 });

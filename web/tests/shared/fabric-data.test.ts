@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { misprint } from '../../src/fabrics/panels/fabric-card';
 import { TERMS } from '../../src/fabrics/state/deform-state';
 import { errorOfMean, geometryOf, measuredRange } from '../../src/fabrics/state/fabric-geometry';
-import { fabricNamed, fabrics } from '../../src/shared/fabric/fabric-data';
+import { fabricNamed, fabrics, inRun } from '../../src/shared/fabric/fabric-data';
 
 describe('fabric-data', () => {
   it.each(fabrics)('gives $name_en weights that add up to one', (fabric) => {
@@ -34,6 +34,32 @@ describe('fabric-data', () => {
       const rms = Math.sqrt(squares.reduce((sum, one) => sum + one, 0) / values.length);
       expect(errorOfMean(term)).toBeCloseTo(rms, 12);
     }
+  });
+});
+
+describe('a quantity in a run', () => {
+  it.each(fabrics)(
+    'of $name_en has its friction in bending alone, as the core takes it',
+    (fabric) => {
+      const { derived } = fabric as unknown as { derived: Record<string, number> };
+      for (const thread of ['warp', 'weft'] as const) {
+        const { value, range } = inRun(fabric, `bend_${thread}_n_m`);
+        expect(value / (derived[`static_bend_${thread}_n_m`] ?? 0)).toBeCloseTo(1, 3);
+        expect(range[0]).toBeLessThanOrEqual(value);
+        expect(range[1]).toBeGreaterThanOrEqual(value);
+      }
+      expect(inRun(fabric, 'areal_density_kg_per_m2')).toBe(fabric.areal_density_kg_per_m2);
+    },
+  );
+
+  it('is as well known as the worse of what is added', () => {
+    const grades = ['estimated', 'typical', 'measured'];
+    for (const fabric of fabrics)
+      for (const key of ['bend_warp_n_m', 'bend_weft_n_m'] as const) {
+        const parts = [fabric[key], fabric.bend_hysteresis_2hb_n];
+        const worst = Math.min(...parts.map(({ confidence }) => grades.indexOf(confidence)));
+        expect(inRun(fabric, key).confidence, fabric.name_en).toBe(grades[worst]);
+      }
   });
 });
 

@@ -2,7 +2,12 @@ import { describe, expect, it } from 'vitest';
 import type { FitAnswer, TermNumbers } from '../../src/fabrics/bindings/deform-module';
 import { curveWords, isWide, weightedSteps } from '../../src/fabrics/panels/energy-curve';
 import { clampedWords, readMeasure, trustWords } from '../../src/fabrics/panels/own-fabric-form';
-import { comparedReading, paneReading, SPIKE } from '../../src/fabrics/panels/term-reading';
+import {
+  comparedReading,
+  paneNumbers,
+  paneReading,
+  SPIKE,
+} from '../../src/fabrics/panels/term-reading';
 import { switched } from '../../src/fabrics/panels/term-switches';
 import type { PaneState } from '../../src/fabrics/state/deform-state';
 import { errorOfMean, measuredRange, perTerm } from '../../src/fabrics/state/fabric-geometry';
@@ -32,6 +37,7 @@ function pane(name: string, weights: TermNumbers, terms: TermNumbers): PaneState
     ],
     status: 'converged',
     updateMs: 3,
+    reach: null,
   };
 }
 
@@ -88,16 +94,37 @@ describe('term-switches', () => {
 
 describe('term-reading', () => {
   it('tells little from much by the share of the unweighted terms', () => {
-    const text = paneReading(pane('canvas', of(0.23, 0.03, 0.74), of(20, 78, 2)), ALL).join('\n');
-    expect(text).toContain('Bends little: bending weighs 74 % and makes 2.0 %');
-    expect(text).toContain('Stretches much: stretch weighs 3.0 % and makes 78 %');
+    const canvas = pane('canvas', of(0.23, 0.03, 0.74), of(20, 78, 2));
+    const text = paneNumbers(canvas, ALL).join('\n');
+    expect(text).toMatch(/Bends little: 2\.0 % .* bending has a weight of 74 %/);
+    expect(text).toMatch(/Stretches much: 78 % .* stretch has a weight of 3\.0 %/);
     expect(text).toContain('Moves away from where it lay');
-    expect(text).not.toContain(SPIKE);
+    expect(paneReading(canvas, ALL)).not.toContain(SPIKE);
+  });
+
+  it('says in words what a fabric keeps, and what it gives for it', () => {
+    const first = (name: string, weights: TermNumbers, counts = ALL) =>
+      paneReading(pane(name, weights, of(5, 90, 5)), counts)[0];
+    expect(first('silk', of(0.98, 1e-4, 0.02))).toBe(
+      'Silk would rather stay where it lay, and will stretch or bend for it.',
+    );
+    expect(first('linen', of(0.02, 0.25, 0.73))).toBe(
+      'Linen would rather keep from bending, and will move away or stretch for it.',
+    );
+    expect(first('leather', of(0.5, 0.02, 0.48))).toBe(
+      'Leather would rather stay where it lay and keep from bending, and will stretch for it.',
+    );
+    expect(first('polyester', of(0.34, 0.33, 0.33))).toBe(
+      'Polyester gives way in all three ways alike.',
+    );
+    expect(first('silk', of(0.9, 0.05, 0.05), { ...ALL, recovery: false })).toBe(
+      'Silk would rather keep its lengths and keep from bending, and will move away for it.',
+    );
   });
 
   it('names the term that most of the energy is', () => {
-    const text = paneReading(pane('canvas', of(0.5, 0.1, 0.4), of(8, 20, 1)), ALL).join('\n');
-    expect(text).toContain('Energy 6.40, 63 % of it recovery.');
+    const text = paneNumbers(pane('canvas', of(0.5, 0.1, 0.4), of(8, 20, 1)), ALL).join('\n');
+    expect(text).toContain('Energy 6.40, a number without unit, 63 % of it recovery.');
   });
 
   it('explains the spike where neither stretch nor bending weigh much, unless stretch is off', () => {
@@ -105,9 +132,9 @@ describe('term-reading', () => {
     expect(paneReading(silk, ALL)).toContain(SPIKE);
     const spandex = pane('spandex', of(0.5, 1e-4, 0.5), of(30, 40, 30));
     expect(paneReading(spandex, ALL)).not.toContain(SPIKE);
-    const off = paneReading(silk, { ...ALL, stretch: false });
-    expect(off).not.toContain(SPIKE);
-    expect(off.join('\n')).toContain('stretch is off and costs nothing');
+    const off = { ...ALL, stretch: false };
+    expect(paneReading(silk, off)).not.toContain(SPIKE);
+    expect(paneNumbers(silk, off).join('\n')).toContain('stretch is off and costs nothing');
   });
 
   it('asks for a pull at rest', () => {

@@ -1,7 +1,8 @@
 // A worker that ends by itself has a successor, but never an endless row of them.
 import { describe, expect, it, vi } from 'vitest';
 import type { Done, Listener } from '../../src/shared/workers/asked';
-import { endedSentence, Renewed } from '../../src/shared/workers/renewed';
+import { Renewed } from '../../src/shared/workers/renewed';
+import { endedSentence } from '../../src/shared/workers/restarts';
 
 interface Question {
   type: 'work';

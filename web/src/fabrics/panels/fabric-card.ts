@@ -1,6 +1,12 @@
 // One fabric: its use, what to expect of it, its weights and measurements, its physical numbers.
 
-import { type FabricRecord, fabricNamed, fabrics, sources } from '../../shared/fabric/fabric-data';
+import {
+  type FabricRecord,
+  fabricNamed,
+  fabrics,
+  inRun,
+  sources,
+} from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { checkBox, element, setText } from '../../shared/panels/element';
 import {
@@ -14,6 +20,7 @@ import { folded, noteLine } from '../../shared/panels/section';
 import { heading, numberCell, rowOf, tableOf } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
 import type { FitAnswer, TermNumbers } from '../bindings/deform-module';
+import { bendingLength, lengthWords } from '../state/bending-length';
 import { type DeformState, TERMS } from '../state/deform-state';
 import { titleOf } from '../state/fabric-choice';
 import { EXPECTATIONS } from '../state/fabric-expectations';
@@ -44,10 +51,14 @@ function shownOf(fabric: FabricRecord): Shown {
   return { weights: recomputed, measures, normalised, published };
 }
 
-/** How stiff it is beside the others, which its weights do not say. */
+/** How stiff it is beside the others, which its weights do not say, and how far it holds itself up. */
 export function stiffnessSentence(fabric: FabricRecord): string {
   const key = 'bend_warp_n_m';
-  return `In forces, its bending rigidity is ${quantityText(fabric, key)} (${fabric[key].confidence}): number ${rankOf(fabric, key)} of ${fabrics.length} from the stiffest.`;
+  const rigidity = `${quantityText(fabric, key)} (${inRun(fabric, key).confidence})`;
+  const rank = `number ${rankOf(fabric, key)} of ${fabrics.length} from the stiffest`;
+  const weight = quantityText(fabric, 'areal_density_kg_per_m2');
+  const length = lengthWords(bendingLength(fabric));
+  return `In forces, its bending rigidity at rest is ${rigidity}: ${rank}. With its weight of ${weight} that is a bending length of ${length}.`;
 }
 
 function weightRows({ weights, published }: Shown): HTMLElement[] {

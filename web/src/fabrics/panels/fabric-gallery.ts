@@ -1,5 +1,5 @@
 // All fabrics as a list: one is shown in the chosen pane, up to four stand side by side.
-import { type FabricRecord, fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
+import { type FabricRecord, fabricNamed, fabrics, inRun } from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import {
   button as buttonOf,
@@ -36,7 +36,7 @@ const ORDER_TITLES: readonly { value: FabricOrder; title: string }[] = [
 ];
 
 const MEANINGS: Record<Exclude<FabricOrder, 'source'>, string> = {
-  bending: 'bending rigidity along the warp, for a metre of width',
+  bending: 'bending rigidity at rest along the warp, for a metre of width',
   weight: 'mass of one square metre',
   stretch: 'the force along the warp that would double the length, for a metre of width',
 };
@@ -52,7 +52,7 @@ export function orderNote(order: FabricOrder): string {
 export function markedQuantity(fabric: FabricRecord, order: FabricOrder): string {
   const key = quantityOf(order);
   if (key === null) return '';
-  const mark = fabric[key].confidence === 'measured' ? '' : '~';
+  const mark = inRun(fabric, key).confidence === 'measured' ? '' : '~';
   return mark + quantityText(fabric, key);
 }
 

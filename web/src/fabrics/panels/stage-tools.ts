@@ -1,7 +1,8 @@
 // The row under the stage: what a press does, the view, and what takes this fabric or this shape into motion.
-import { button, checkBox } from '../../shared/panels/element';
+import { button, checkBox, element, setText } from '../../shared/panels/element';
 import { createSegments, type Segment } from '../../shared/panels/segments';
 import { type Store, watch } from '../../shared/state/store';
+import { startRefusal } from '../state/edge-reach';
 import type { FabricsState, Tool } from '../state/fabrics-state';
 
 export interface StageToolActions {
@@ -16,6 +17,16 @@ const TOOLS: readonly Segment<Tool>[] = [
 ];
 
 const NO_MOTION = 'Three ratios say neither weight nor stiffness: choose a fabric of the list';
+
+const UNKNOWN = 'The shape is still being found';
+
+/** The sentence why the shape of the chosen pane starts no motion; null where it does. */
+export function whyNoStart({ panes, chosen, phase }: FabricsState): string | null {
+  const pane = panes[chosen];
+  if (!pane || phase !== 'ready') return UNKNOWN;
+  if (pane.fabric.kind === 'own') return NO_MOTION;
+  return pane.reach ? startRefusal(pane.reach) : UNKNOWN;
+}
 
 export function createStageTools(
   parent: HTMLElement,
@@ -34,13 +45,20 @@ export function createStageTools(
   });
   const wear = button('Carry this fabric over to motion', actions.wear);
   const start = button('Start moving from this shape', actions.start);
-  parent.append(tools.control, view, edges.label, wear, start);
+  const reason = element('p', { class: 'note start-reason', id: 'start-reason' });
+  start.setAttribute('aria-describedby', reason.id);
+  parent.append(tools.control, view, edges.label, wear, start, reason);
   watch(store, ['tool', 'edges', 'panes', 'chosen', 'phase'], (state) => {
     tools.select(state.tool);
     edges.input.checked = state.edges;
     const isOwn = state.panes[state.chosen]?.fabric.kind === 'own';
-    for (const to of [wear, start]) to.disabled = isOwn || state.phase !== 'ready';
+    wear.disabled = isOwn || state.phase !== 'ready';
     wear.title = isOwn ? NO_MOTION : 'The scene of the other view in this fabric';
-    start.title = isOwn ? NO_MOTION : 'Lets this very cloth go, from the shape it has';
+    const why = whyNoStart(state);
+    start.disabled = why !== null;
+    start.title = why ?? 'Lets this very cloth go, from the shape it has';
+    const isWorthSaying = why !== null && why !== UNKNOWN;
+    reason.hidden = !isWorthSaying;
+    setText(reason, isWorthSaying ? why : '');
   });
 }

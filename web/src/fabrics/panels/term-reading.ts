@@ -2,7 +2,7 @@
 
 import { element } from '../../shared/panels/element';
 import { digits, percent } from '../../shared/panels/quantity';
-import { addSection } from '../../shared/panels/section';
+import { addSection, folded } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import type { TermNumbers } from '../bindings/deform-module';
 import { type DeformState, type PaneState, TERMS, type Term } from '../state/deform-state';
@@ -51,13 +51,44 @@ function amount(part: number): 'little' | 'some' | 'much' {
   return part > MUCH ? 'much' : 'some';
 }
 
-/** "Bends little: bending weighs 73 %, and makes 5.0 % of the three unweighted." */
+const KEEPS: Record<Term, string> = {
+  recovery: 'stay where it lay',
+  stretch: 'keep its lengths',
+  bending: 'keep from bending',
+};
+
+const GIVES_WAY: Record<Term, string> = {
+  recovery: 'move away',
+  stretch: 'stretch',
+  bending: 'bend',
+};
+
+/** A weight that is this many times another is felt as more. */
+const CLEARLY_MORE = 1.5;
+
+/** "Silk would rather stay where it lay, and will stretch or bend for it." */
+export function preferenceSentence({ fabric, weights }: PaneState, counts: Counts): string {
+  const title = titleOf(fabric);
+  const name = title.charAt(0).toUpperCase() + title.slice(1);
+  const counted = TERMS.filter((term) => counts[term]).sort((a, b) => weights[b] - weights[a]);
+  const most = counted[0];
+  if (most === undefined) return '';
+  const less = TERMS.filter(
+    (term) => !counts[term] || CLEARLY_MORE * weights[term] <= weights[most],
+  );
+  if (less.length === 0) return `${name} gives way in all three ways alike.`;
+  const ways = less.map((term) => GIVES_WAY[term]).join(' or ');
+  const alike = counted.filter((term) => !less.includes(term)).map((term) => KEEPS[term]);
+  return `${name} would rather ${alike.join(' and ')}, and will ${ways} for it.`;
+}
+
+/** "Bends little: weight 73 %, and 5.0 % of the three before weighting." */
 function termSentence(term: Term, { terms, weights }: PaneState, counts: Counts): string {
   const part = terms[term] / sum(terms);
   const does = DOES[term][amount(part)];
   const title = TERM_TITLES[term].toLowerCase();
   if (!counts[term]) return `${does}: ${title} is off and costs nothing.`;
-  return `${does}: ${title} weighs ${percent(weights[term])} and makes ${percent(part)} of the three terms before weighting.`;
+  return `${does}: ${percent(part)} of the three terms before weighting, ${title} has a weight of ${percent(weights[term])}.`;
 }
 
 /** Names the term that most of the energy is. */
@@ -66,7 +97,7 @@ function energySentence(pane: PaneState, counts: Counts): string {
   const total = sum(paid);
   const [most] = [...TERMS].sort((a, b) => paid[b] - paid[a]);
   if (!most || total <= 0) return '';
-  return `Energy ${digits(pane.energy)}, ${percent(paid[most] / total)} of it ${TERM_TITLES[most].toLowerCase()}.`;
+  return `Energy ${digits(pane.energy)}, a number without unit, ${percent(paid[most] / total)} of it ${TERM_TITLES[most].toLowerCase()}.`;
 }
 
 /** True of silk alone: spandex and nylon hardly resist stretch either, but bend round. */
@@ -74,13 +105,19 @@ export function isSpiky({ stretch, bending }: TermNumbers): boolean {
   return stretch < SPIKY_STRETCH && bending < SPIKY_BENDING;
 }
 
-/** The chosen pane's own numbers; one sentence if it lies at rest. */
+/** Sentences on the chosen pane; one if it lies at rest. */
 export function paneReading(pane: PaneState, counts: Counts): string[] {
   if (sum(pane.terms) <= 0) return ['At rest: no term costs anything. Pull a handle.'];
-  const sentences = TERMS.map((term) => termSentence(term, pane, counts));
-  sentences.push(energySentence(pane, counts));
+  const sentences = [preferenceSentence(pane, counts)];
   if (counts.stretch && isSpiky(pane.weights)) sentences.push(SPIKE);
-  return sentences.filter((sentence) => sentence !== '');
+  return sentences;
+}
+
+/** The numbers behind them. */
+export function paneNumbers(pane: PaneState, counts: Counts): string[] {
+  if (sum(pane.terms) <= 0) return [];
+  const sentences = TERMS.map((term) => termSentence(term, pane, counts));
+  return [...sentences, energySentence(pane, counts)].filter((sentence) => sentence !== '');
 }
 
 /** "Of these, canvas bends least: 0.50 against 5.0 of silk."; none where they are alike. */
@@ -98,17 +135,37 @@ export function comparedReading(panes: readonly PaneState[]): string[] {
   });
 }
 
+/** A list of sentences that is made anew only when they are others. */
+function createSentences() {
+  const list = element('ul', { class: 'plain-list' });
+  let shown = '';
+  return {
+    list,
+    show(sentences: readonly string[]) {
+      const text = sentences.join('\n');
+      if (text === shown) return;
+      shown = text;
+      list.replaceChildren(...sentences.map((sentence) => element('li', {}, sentence)));
+    },
+  };
+}
+
 /** The sentences for the chosen pane, and for how those side by side differ. */
 export function createTermReading(parent: HTMLElement, store: Store<DeformState>): void {
-  const list = element('ul', { class: 'plain-list' });
-  addSection(parent, 'What the numbers say', element('h2', {}, 'What the numbers say'), list);
-  let shown = '';
+  const [words, numbers] = [createSentences(), createSentences()];
+  const box = folded('In numbers', {}, numbers.list);
+  addSection(
+    parent,
+    'What the shape says',
+    element('h2', {}, 'What the shape says'),
+    words.list,
+    box,
+  );
   watch(store, ['panes', 'chosen', 'terms'], ({ panes, chosen, terms }) => {
     const pane = panes[chosen];
-    const sentences = pane ? [...paneReading(pane, terms), ...comparedReading(panes)] : [];
-    const text = sentences.join('\n');
-    if (text === shown) return;
-    shown = text;
-    list.replaceChildren(...sentences.map((sentence) => element('li', {}, sentence)));
+    words.show(pane ? [...paneReading(pane, terms), ...comparedReading(panes)] : []);
+    const lines = pane ? paneNumbers(pane, terms) : [];
+    numbers.show(lines);
+    box.hidden = lines.length === 0;
   });
 }

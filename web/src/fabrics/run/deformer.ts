@@ -20,8 +20,10 @@ import {
 import type { Store } from '../../shared/state/store';
 import { placeOf } from '../../shared/state/vectors';
 import { answerOf } from '../../shared/workers/asked';
+import { endedSentence, Restarts } from '../../shared/workers/restarts';
 import type { TermNumbers } from '../bindings/deform-module';
 import type { PaneState } from '../state/deform-state';
+import { type RestEdges, reachOf, restEdges } from '../state/edge-reach';
 import { EXPERIMENTS, type Experiment, ownExperiment } from '../state/experiments';
 import { type Comparison, titleOf } from '../state/fabric-choice';
 import type { FabricOrder } from '../state/fabric-order';
@@ -79,6 +81,13 @@ const ALL_TERMS = { recovery: true, stretch: true, bending: true };
 /** How a cloth is held that comes without a link. */
 const UNMOVED: Pick<FabricsLink, 'moved' | 'released'> = { moved: [], released: [] };
 
+/** Words after each end in a row, and after one more. */
+const AFTER_END = [
+  'It was started again, with the cloth held as it was.',
+  'That happened twice: it was started again, with the cloth held as at first.',
+];
+const GIVEN_UP = 'That happened three times in a row. Reload the page to try once more.';
+
 async function meshText({ experiment, own }: Opening): Promise<string> {
   if (own) return textInMetres(own.file, own.unit);
   return experiment.meshUrl === null ? '' : (await fetched(experiment.meshUrl)).text();
@@ -94,6 +103,9 @@ export class Deformer {
   private shown: (ArrayBuffer | undefined)[] = []; // frame of each pane
   private readonly clock = createClock();
   private obj: OwnMesh | null = null; // the visitor's, as it was opened last
+  private readonly restarts = new Restarts();
+  private isOpen = false; // the worker has a cloth
+  private edges: RestEdges | null = null; // of the shown cloth
 
   constructor(
     private readonly store: Store<FabricsState>,
@@ -108,7 +120,7 @@ export class Deformer {
     );
     this.held = new HeldCloth(
       store,
-      () => this.client,
+      () => (this.isOpen ? this.client : null),
       () => this.hand.hasTaken(),
     );
     store.subscribe((state, previous) => {
@@ -122,7 +134,7 @@ export class Deformer {
   openExperiment(id: string, link?: FabricsLink): void {
     const known = EXPERIMENTS.find((experiment) => experiment.id === id);
     if (known) return void this.open({ experiment: known, link: link ?? null, own: null });
-    if (this.obj) this.openOwn(this.obj);
+    if (this.obj) this.openOwn(this.obj, link ?? null);
   }
 
   async openObj(file: File): Promise<void> {
@@ -139,11 +151,8 @@ export class Deformer {
   /** Gives up the file that is being read: what was shown before is shown again. */
   cancel(): void {
     if (this.store.get().reading === null) return;
-    this.client.terminate();
-    this.client = this.startClient();
-    this.store.set({ reading: null });
-    const state = this.store.get();
-    this.openExperiment(state.experiment, decodeFabricsLink(encodeFabricsLink(state)).link);
+    this.replaceClient();
+    this.openAgain();
   }
 
   release(name: string): void {
@@ -203,9 +212,35 @@ export class Deformer {
     return answerOf(question, (failure) => this.refuse(failure));
   }
 
+  private replaceClient(): void {
+    this.client.terminate();
+    this.client = this.startClient();
+    this.isOpen = false;
+    this.hand.drop();
+    this.held.drop();
+    this.store.set({ reading: null, isDragging: false });
+  }
+
+  /** Opens what is shown, held as it is or otherwise. */
+  private openAgain(held: Partial<typeof UNMOVED> = {}): void {
+    const state = this.store.get();
+    const { link } = decodeFabricsLink(encodeFabricsLink(state));
+    this.openExperiment(state.experiment, { ...link, ...held });
+  }
+
+  /** The worker is gone: another one shows the same once, then the same held as at first, and then none. */
   private breakDown(reason: string): void {
-    const problem = brokenFailure('The shapes', reason);
-    this.store.set({ phase: 'broken', problem });
+    const nEnds = this.restarts.noteEnd();
+    if (nEnds === 0) {
+      const problem = brokenFailure('The shapes', reason);
+      return this.store.set({ phase: 'broken', problem });
+    }
+    const after = AFTER_END[nEnds - 1];
+    const problem = inputFailure(`${endedSentence(reason)} ${after ?? GIVEN_UP}`);
+    this.store.set({ problem });
+    if (after === undefined) return this.store.set({ phase: 'broken' });
+    this.replaceClient();
+    this.openAgain(nEnds === 1 ? {} : UNMOVED);
   }
 
   private refuse(failure: Failure): void {
@@ -224,10 +259,10 @@ export class Deformer {
     });
   }
 
-  private openOwn(own: OwnMesh): void {
+  private openOwn(own: OwnMesh, link: FabricsLink | null = null): void {
     const { name } = own.file;
     this.store.set({ reading: name });
-    void this.open({ experiment: ownExperiment(name), link: null, own });
+    void this.open({ experiment: ownExperiment(name), link, own });
   }
 
   private async open(wanted: Opening): Promise<void> {
@@ -255,6 +290,9 @@ export class Deformer {
     const { experiment, link, own } = opening;
     if (own) this.obj = own;
     this.cloth = cloth;
+    this.isOpen = true;
+    this.edges = restEdges(triangles, answer.rest_m);
+    this.restarts.noteStart();
     this.shown = [];
     this.hand.drop();
     const ownHolds = holdsOf(answer, triangles);
@@ -288,7 +326,10 @@ export class Deformer {
     this.view.showFrame(pane, buffer);
     if (!this.clock.areNumbersDue(NUMBERS_EVERY_MS, status !== 'dragging')) return;
     const { energy, terms, steps } = report;
-    const numbers = { energy, terms, steps, status, updateMs };
+    const isFound = status === 'converged' || status === 'not_converged';
+    if (isFound) this.restarts.noteWork();
+    const reach = isFound && this.edges ? reachOf(this.edges, frameViews(buffer).positions) : null;
+    const numbers = { energy, terms, steps, status, updateMs, reach };
     this.store.set({
       panes: panes.map((one, at): PaneState => (at === pane ? { ...one, ...numbers } : one)),
     });
@@ -316,6 +357,7 @@ export class Deformer {
     const { store } = this;
     // Numbers that are shown are of what was before, until new ones come.
     store.set({ panes: settlingPanes(store.get().panes) });
+    if (!this.isOpen) return;
     const { panes, terms, form } = store.get();
     const weights = panes.map((pane) => countedWeights(pane, terms));
     const asked = this.granted.ask(this.client.ask({ type: 'show', form, weights }), {

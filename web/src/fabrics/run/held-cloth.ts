@@ -25,7 +25,8 @@ export class HeldCloth {
 
   constructor(
     private readonly store: Store<FabricsState>,
-    private readonly client: () => DeformClient,
+    /** Null while the worker has no cloth. */
+    private readonly client: () => DeformClient | null,
     /** A hand has the cloth now. */
     private readonly isTaken: () => boolean,
   ) {}
@@ -56,6 +57,7 @@ export class HeldCloth {
     const { store } = this;
     const client = this.client();
     store.set({ panes: settlingPanes(store.get().panes) });
+    if (!client) return;
     const { vertices, places } = joined(this.holds());
     const message = { type: 'hold', vertices, places } as const;
     const asked = this.granted.ask(client.ask(message, [vertices.buffer, places.buffer]), {
@@ -71,7 +73,7 @@ export class HeldCloth {
     this.store.set(heldBy(holds));
     if (this.granted.isSettled()) this.granted.value = holds;
     const { places } = joined(holds);
-    this.client().tell({ type: 'move', places }, [places.buffer]);
+    this.client()?.tell({ type: 'move', places }, [places.buffer]);
     window.clearTimeout(this.restTimer);
     this.restTimer = window.setTimeout(() => this.rest(), REST_AFTER_MS);
   }
@@ -79,7 +81,12 @@ export class HeldCloth {
   /** Nothing moves for now. */
   rest(): void {
     window.clearTimeout(this.restTimer);
-    this.client().tell({ type: 'rest', isHeld: this.isTaken() });
+    this.client()?.tell({ type: 'rest', isHeld: this.isTaken() });
+  }
+
+  /** Nothing is asked for any more of what was held. */
+  drop(): void {
+    window.clearTimeout(this.restTimer);
   }
 
   private undo(): void {

@@ -1,4 +1,5 @@
 // Keeps what the worker has granted last, to go back to when it refuses what came after.
+import { BrokenWorker } from '../../shared/workers/asked';
 
 export class LastGranted<Value> {
   private nUnanswered = 0;
@@ -12,23 +13,23 @@ export class LastGranted<Value> {
 
   /**
    * Asks for something; then, once nothing is unanswered, keeps what was `granted`, or has it undone
-   * by `refused` when the last answer was a refusal.
+   * by `refused` when the last answer was a refusal. A worker that is gone has neither.
    */
   async ask(
     question: Promise<unknown>,
     outcome: { granted(): Value; refused(): void },
   ): Promise<void> {
     this.nUnanswered += 1;
-    let isGranted = true;
+    let answer: 'granted' | 'refused' | 'none' = 'granted';
     try {
       await question;
     } catch (error) {
-      isGranted = false;
+      answer = error instanceof BrokenWorker ? 'none' : 'refused';
       throw error;
     } finally {
       this.nUnanswered -= 1;
-      if (this.isSettled() && isGranted) this.value = outcome.granted();
-      else if (this.isSettled()) outcome.refused();
+      if (this.isSettled() && answer === 'granted') this.value = outcome.granted();
+      else if (this.isSettled() && answer === 'refused') outcome.refused();
     }
   }
 }

@@ -18,9 +18,14 @@ export interface FabricsStageEvents extends HeldStageEvents {
   drawn: HeldStageParts['drawn'];
 }
 
-/** Direction of the first view [rad]: from above enough to see a level sheet's shape. */
-const AZIMUTH = 0.5;
-const POLAR = 1.08;
+/** A direction of the first view [rad]. */
+export interface Direction {
+  azimuth: number;
+  polar: number;
+}
+
+/** From above enough to see a level sheet's shape. */
+const LEVEL: Direction = { azimuth: 0.5, polar: 1.08 };
 
 /** The floor lies under the cloth by this part of its size. */
 const FLOOR_BELOW = 0.25;
@@ -100,12 +105,16 @@ class PaneClothes {
 }
 
 /** Sets the view so that these places are seen; the height of the floor below them [m]. */
-function frame({ surroundings, control, camera }: PaneStage, places: readonly number[]): number {
+function frame(
+  { surroundings, control, camera }: PaneStage,
+  places: readonly number[],
+  direction: Direction,
+): number {
   const box = new Box3().setFromArray(places);
   const { center: centre, radius } = box.getBoundingSphere(new Sphere());
   const floor = box.min.y - FLOOR_BELOW * radius;
   surroundings.frame(centre, radius, floor);
-  const view = { centre, radius, azimuth: AZIMUTH, polar: POLAR };
+  const view = { centre, radius, ...direction };
   control.frame({ ...view, upright: uprightOf(places, view, camera.fov) });
   return floor;
 }
@@ -182,8 +191,8 @@ export function createFabricsStage(
       redraw();
     },
     /** Sets the view so that these places are seen, three numbers each [m]. */
-    frame(places: readonly number[]) {
-      held.setFloor(frame(stage, places));
+    frame(places: readonly number[], direction = LEVEL) {
+      held.setFloor(frame(stage, places, direction));
     },
     homeView: stage.control.home,
     /** A step to the right, up and away as the viewer sees it, from a place, for one key press [m]. */

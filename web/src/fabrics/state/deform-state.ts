@@ -2,6 +2,7 @@
 
 import type { Failure } from '../../shared/bindings/answers';
 import type { DeformReport, FitAnswer, TermNumbers } from '../bindings/deform-module';
+import type { EdgeReach } from './edge-reach';
 import type { FabricOrder } from './fabric-order';
 
 export type EnergyForm = 'consistent' | 'published';
@@ -21,6 +22,8 @@ export interface PaneState {
   status: 'dragging' | 'settling' | 'converged' | 'not_converged';
   /** Time of the last update [ms]. */
   updateMs: number;
+  /** How far its edges are stretched and pushed together; null until the shape is found. */
+  reach: EdgeReach | null;
 }
 
 export interface NamedHold {

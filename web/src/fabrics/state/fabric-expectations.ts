@@ -1,6 +1,6 @@
 // Expectations of each fabric when a handle is pulled, from its recomputed weights.
 //
-// Weights are shares inside one fabric: linen weighs bending most, and wool takes three times the moment to
+// Weights are shares inside one fabric: linen weighs bending most, and wool takes twice the moment to
 // bend. How far a pull reaches goes by the weight of recovery alone, in reverse: the mean move of a sheet
 // held by its corners and lifted in the middle has that order over the fifteen. Little weight on stretch
 // shows in a pull along the sheet, and as a spike where bending weighs as little.

@@ -1,5 +1,10 @@
 // The order of the list of fabrics: as their source numbers them, or by a physical quantity.
-import { type FabricQuantity, type FabricRecord, fabrics } from '../../shared/fabric/fabric-data';
+import {
+  type FabricQuantity,
+  type FabricRecord,
+  fabrics,
+  inRun,
+} from '../../shared/fabric/fabric-data';
 
 export const ORDERS = ['source', 'bending', 'weight', 'stretch'] as const;
 export type FabricOrder = (typeof ORDERS)[number];
@@ -16,13 +21,17 @@ export function quantityOf(order: FabricOrder): FabricQuantity | null {
   return QUANTITIES[order];
 }
 
+function amountOf(fabric: FabricRecord, key: FabricQuantity): number {
+  return inRun(fabric, key).value;
+}
+
 /** The greatest value first. */
 export function orderedFabrics(order: FabricOrder): readonly FabricRecord[] {
   const key = quantityOf(order);
-  return key === null ? fabrics : [...fabrics].sort((a, b) => b[key].value - a[key].value);
+  return key === null ? fabrics : [...fabrics].sort((a, b) => amountOf(b, key) - amountOf(a, key));
 }
 
 /** 1 for the fabric with the greatest value. */
 export function rankOf(fabric: FabricRecord, key: FabricQuantity): number {
-  return 1 + fabrics.filter((other) => other[key].value > fabric[key].value).length;
+  return 1 + fabrics.filter((other) => amountOf(other, key) > amountOf(fabric, key)).length;
 }

@@ -9,6 +9,7 @@ import { perTerm } from './fabric-geometry';
 import { type FabricOrder, ORDERS } from './fabric-order';
 import type { FabricsLink, FabricsState, LinkedHold } from './fabrics-state';
 import { type HeldCloth, type Hold, holdAt } from './holds';
+import { takeWay } from './ways';
 
 /** More would make a link of thousands of letters. */
 const MOST_HOLDS = 40;
@@ -118,7 +119,9 @@ export function encodeFabricsLink(state: FabricsState): string {
 /** The state a link stands for; `problems` says in words what could not be read. */
 export function decodeFabricsLink(hash: string): { link: FabricsLink; problems: string[] } {
   // A plus is a plus here, not a space.
-  const { take, takeSwitch, finish } = createLinkReader(hash.replaceAll('+', '%2B'), 'fabrics');
+  const reader = createLinkReader(hash.replaceAll('+', '%2B'), 'fabrics');
+  const { take, takeSwitch, finish } = reader;
+  takeWay(reader);
   const ids = EXPERIMENTS.map(({ id }) => id);
   const first = ids[0] ?? OWN;
   const experiment = take('scene', first, `${ids.join(', ')} (a link carries no OBJ)`, oneOf(ids));

@@ -95,18 +95,19 @@ export function panesFor(
       terms: perTerm(() => Number.NaN),
       steps: [],
       updateMs: Number.NaN,
+      reach: null,
     };
     // An own fabric is as its nearest until its weights are fitted.
     const weights =
       weightsOf(fabric, state.weightsFrom, state.ownFabric) ??
       geometryOf(recordOf(fabric, state.ownFabric)).recomputed;
-    return { ...numbers, fabric, weights, status: 'settling' };
+    return { ...numbers, fabric, weights, status: 'settling', reach: null };
   });
 }
 
 /** Panes whose numbers are of what was before, until new ones come. */
 export function settlingPanes(panes: readonly PaneState[]): PaneState[] {
-  return panes.map((pane) => ({ ...pane, status: 'settling' }));
+  return panes.map((pane) => ({ ...pane, status: 'settling', reach: null }));
 }
 
 /** The failure for parts of a link that could not be followed, after what was known of it already. */

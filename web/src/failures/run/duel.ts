@@ -15,7 +15,7 @@ import { Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
 import { BrokenWorker } from '../../shared/workers/asked';
 import { type StartMotion, startMotionWorker } from '../../shared/workers/motion-client';
-import { endedSentence } from '../../shared/workers/renewed';
+import { endedSentence } from '../../shared/workers/restarts';
 import { caseNamed, SIDES, type Side, STEP_S, sceneTextOf } from '../state/failure-cases';
 import { type FailuresState, freshSides } from '../state/failures-state';
 import { sideAfter } from './side-reading';

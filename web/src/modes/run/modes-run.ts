@@ -14,7 +14,8 @@ import {
 } from '../../shared/state/obj-file';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
-import { endedSentence, Renewed } from '../../shared/workers/renewed';
+import { Renewed } from '../../shared/workers/renewed';
+import { endedSentence } from '../../shared/workers/restarts';
 import type { Energy } from '../bindings/modal-module';
 import { DRAPE_FRAMES, DRAPE_FRAMES_PER_S, type KeyOrigin, remade } from '../state/key-shapes';
 import { BAR_SIDES_M, modelOf, OWN } from '../state/models';

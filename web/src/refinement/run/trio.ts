@@ -240,7 +240,7 @@ export class Trio {
   /** A worker has ended: others take the places of all, once. */
   private breakDown(reason: string): void {
     const hasStarted = this.panes.hasStarted() || this.isBuilt;
-    const mayStart = this.restarts.mayStart();
+    const mayStart = this.restarts.noteEnd() <= 1;
     const state = this.store.get();
     const { timeS, startS } = state;
     const isComputed = isComputedHere(state);
@@ -253,7 +253,7 @@ export class Trio {
       const problem = brokenFailure('The garment', reason);
       return this.store.set({ ...rest, phase: 'broken', problem });
     }
-    const ended = endedSentence(quoted(reason), timeS > 0 ? ` at ${timeS.toFixed(2)} s` : '');
+    const ended = endedSentence(reason, timeS > 0 ? ` at ${timeS.toFixed(2)} s` : '');
     if (!mayStart) {
       const what = `${ended} That happened twice. Choose another garment or motion, or reset to try once more.`;
       return this.store.set({ ...rest, phase: 'stopped', problem: inputFailure(what) });
@@ -299,7 +299,7 @@ export class Trio {
     const isCurrent = this.latest.mark();
     try {
       await work(isCurrent);
-      if (isCurrent()) this.restarts.prove();
+      if (isCurrent()) this.restarts.noteWork();
     } catch (error) {
       if (isCurrent()) this.stop(error);
     }

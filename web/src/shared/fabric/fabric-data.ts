@@ -26,7 +26,7 @@ export type FabricQuantity =
 /** Numbers that a scene has in place of a fabric's. */
 export type OwnQuantities = Partial<Record<FabricQuantity, number>>;
 
-export type FabricRecord = Record<FabricQuantity, Measured> & {
+export type FabricRecord = Record<FabricQuantity | 'bend_hysteresis_2hb_n', Measured> & {
   id: number;
   name_en: string;
   use_en: string;
@@ -62,4 +62,24 @@ export function fabricNamed(name: string): FabricRecord {
   const found = fabrics.find((fabric) => fabric.name_en === name) ?? fabrics[0];
   if (!found) throw new Error('the fabric file holds no fabric');
   return found;
+}
+
+/** Twice the curvature at which a run turns friction inside bent cloth into rigidity [1/m] (kStaticBendCurvature). */
+const TWICE_CURVATURE = 60;
+
+/**
+ * A quantity as a run takes it by default: at rest, friction between its yarns holds a fold as more rigidity
+ * would. No fabric's friction is better known than its rigidity.
+ */
+export function inRun(fabric: FabricRecord, key: FabricQuantity): Measured {
+  const own = fabric[key];
+  if (!key.startsWith('bend')) return own;
+  const { value, range, source, confidence } = fabric.bend_hysteresis_2hb_n;
+  const sum = (slope: number, width: number) => slope + width / TWICE_CURVATURE;
+  return {
+    value: sum(own.value, value),
+    range: [sum(own.range[0], range[0]), sum(own.range[1], range[1])],
+    source: [...new Set([...own.source, ...source])],
+    confidence,
+  };
 }

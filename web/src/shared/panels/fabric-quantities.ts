@@ -4,6 +4,7 @@ import {
   confidenceMeaning,
   type FabricQuantity,
   type FabricRecord,
+  inRun,
   type OwnQuantities,
   sources,
 } from '../fabric/fabric-data';
@@ -58,14 +59,15 @@ const LINES: readonly Line[] = [
     title: 'Bending, warp',
     unit: 'µN·m',
     factor: 1e6,
-    meaning: 'Moment a metre of width needs for a curvature of one per metre, bending the warp.',
+    meaning:
+      'Moment at rest of a metre of width for a curvature of one per metre, bending the warp.',
   },
   {
     key: 'bend_weft_n_m',
     title: 'Bending, weft',
     unit: 'µN·m',
     factor: 1e6,
-    meaning: 'The same, bending the weft.',
+    meaning: 'The same along the weft.',
   },
   {
     key: 'thickness_m',
@@ -86,7 +88,7 @@ const LINES: readonly Line[] = [
 /** A quantity of a fabric with its unit: "45 µN·m". */
 export function quantityText(fabric: FabricRecord, key: FabricQuantity): string {
   const line = LINES.find((one) => one.key === key);
-  return line ? shownText(fabric[key].value, line) : '';
+  return line ? shownText(inRun(fabric, key).value, line) : '';
 }
 
 function shownText(value: number, { factor, unit }: Line): string {
@@ -101,7 +103,7 @@ interface Reading {
 }
 
 function reading(fabric: FabricRecord, line: Line, own: OwnQuantities): Reading {
-  const { value, confidence, source } = fabric[line.key];
+  const { value, confidence, source } = inRun(fabric, line.key);
   const ofFabric = shownText(value, line);
   const ofScene = own[line.key];
   if (ofScene !== undefined) {
@@ -118,7 +120,7 @@ export function quantityReadings(fabric: FabricRecord, own: OwnQuantities): Map<
 }
 
 function row(fabric: FabricRecord, line: Line, own: OwnQuantities): HTMLElement {
-  const [from, to] = fabric[line.key].range;
+  const [from, to] = inRun(fabric, line.key).range;
   const { shown, badge, origin } = reading(fabric, line, own);
   const span = `${digits(from * line.factor, 2)} to ${digits(to * line.factor, 2)} ${line.unit}`;
   const kind = badge === SCENE ? 'scene' : badge;
@@ -136,7 +138,7 @@ export function sourceList(fabric: FabricRecord): HTMLElement {
   const list = element('dl', { class: 'sources' });
   const named = new Map<string, string[]>();
   for (const line of LINES) {
-    for (const key of fabric[line.key].source) {
+    for (const key of inRun(fabric, line.key).source) {
       named.set(key, [...(named.get(key) ?? []), line.title.toLowerCase()]);
     }
   }

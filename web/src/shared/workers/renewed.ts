@@ -1,5 +1,4 @@
 // A worker that has a successor when it ends by itself: one at a time, until the work is done.
-import { quoted } from '../bindings/answers';
 import type { AnswersTo, Asked, Listener, Message } from './asked';
 
 export interface RenewedEvents {
@@ -7,11 +6,6 @@ export interface RenewedEvents {
   renewed(reason: string): void;
   /** None did: the first one never answered (`hasWorked` is false), or the successor ended as well. */
   lost(reason: string, hasWorked: boolean): void;
-}
-
-/** The sentence for a worker that ended by itself. */
-export function endedSentence(reason: string): string {
-  return `The computation ended by itself (${quoted(reason).replace(/[.]$/, '')}).`;
 }
 
 export class Renewed<Question extends Message, Answers extends AnswersTo<Question>>

@@ -1,23 +1,30 @@
-// Starts of workers after one has ended by itself: once more, but not for ever.
+// Ends of a worker by itself: whether another one is to take its place, and the words for it.
+import { quoted } from '../bindings/answers';
 
-/** Words on an end; `at` says when it was, as " at 1.20 s", or nothing. */
-export function endedSentence(reason: string, at = ''): string {
-  return `The computation ended by itself${at} (${reason.replace(/[.]$/, '')}).`;
+/** Counts how often in a row a worker has ended before it did its work. */
+export class Restarts {
+  private nInARow = 0;
+  private hasStarted = false;
+
+  /** It has answered: a worker can be had here. */
+  noteStart(): void {
+    this.hasStarted = true;
+  }
+
+  /** It did what it was asked for: its next end is the first one again. */
+  noteWork(): void {
+    this.hasStarted = true;
+    this.nInARow = 0;
+  }
+
+  /** Notes an end. How many there were in a row; 0 of what never started, as another one would not either. */
+  noteEnd(): number {
+    if (this.hasStarted) this.nInARow += 1;
+    return this.nInARow;
+  }
 }
 
-/** Tells a first end from one that follows before any work was done. */
-export class Restarts {
-  private isProven = true;
-
-  /** Work came to its end. */
-  prove(): void {
-    this.isProven = true;
-  }
-
-  /** False when nothing was done since the last start: another one would end as well. */
-  mayStart(): boolean {
-    const { isProven } = this;
-    this.isProven = !isProven;
-    return isProven;
-  }
+/** The first sentence after an end; `at` says when it was, as " at 1.20 s", or nothing. */
+export function endedSentence(reason: string, at = ''): string {
+  return `The computation ended by itself${at} (${quoted(reason).replace(/[.]$/, '')}).`;
 }
