@@ -7,6 +7,12 @@ namespace pleat {
 
 using emscripten::val;
 
+namespace {
+
+constexpr double kUntilCalm = 1;  // after a hand has let go [s]
+
+}  // namespace
+
 void PageRun::begin() {
   steps_.emplace(*simulation_, TimedRun::Parts::timed);
   watch_.emplace(*simulation_);
@@ -14,9 +20,12 @@ void PageRun::begin() {
 }
 
 void PageRun::take(std::unique_ptr<Simulation> fresh) {
+  const bool was_pulled = simulation_ && !watch_ && fresh->time() > 0;
+  if (was_pulled && simulation_->is_grabbed()) calm_ = fresh->time() + kUntilCalm;
   steps_.reset();
   simulation_ = std::move(fresh);
   begin();
+  if (was_pulled) watch_.reset();
 }
 
 void PageRun::reset() {
@@ -30,7 +39,6 @@ void PageRun::start_from(const Positions& places) {
 }
 
 void PageRun::release_grab() {
-  constexpr double kUntilCalm = 1;  // [s]
   if (!is_loaded() || !running().is_grabbed()) return;
   running().release_grab();
   watch_.reset();

@@ -15,7 +15,8 @@ namespace pleat {
 /// A simulation that a page steps, its last report and what its steps cost.
 class PageRun {
  public:
-  /// Takes another simulation, at the beginning of its run.
+  /// Takes another simulation, at the beginning of its run, or on its way with the motion of the
+  /// one before: what a hand did there is not watched until it has calmed down.
   void take(std::unique_ptr<Simulation> fresh);
   /// Begins the run anew.
   void reset();
@@ -50,7 +51,7 @@ class PageRun {
   std::unique_ptr<Simulation> simulation_;
   std::optional<TimedRun> steps_;
   std::optional<RunWatch> watch_;  // none while a hand holds the cloth, and until it is calm
-  double calm_ = 0;                // when it will be [s]
+  double calm_ = 0;                // time from which it is [s]
   SolveReport report_;
 };
 

@@ -3,16 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace pleat {
 
 HandReach::HandReach(const Eigen::VectorXd& ways, std::span<const Pin> pins,
-                     std::vector<Thread> threads, double radius, double stretch)
+                     std::vector<Thread> threads, const Grip& grip, double stretch)
     : threads_(std::move(threads)) {
   for (const Pin& pin : pins) {
     const double length = ways[pin.vertex];
-    if (length > 0 && std::isfinite(length))
-      tethers_.push_back({pin, length, length + stretch * std::max(length - radius, 0.0)});
+    if (length == 0 || !std::isfinite(length)) continue;
+    const double pulled = length + stretch * std::max(length - grip.radius, 0.0);
+    const double present = (pin.position(grip.time) - grip.place).norm();
+    tethers_.push_back({pin, length, std::max(pulled, present)});
   }
 }
 
@@ -26,10 +29,30 @@ void HandReach::place_balls(const State& state, VertexId grabbed, double time_en
   for (const Thread& thread : threads_) {
     const Vec3 away = state.positions.col(thread.beside) - state.positions.col(thread.held);
     const Vec3 next = away + h * state.velocities.col(thread.beside);
-    const double longest = (1 + kHandStretch) * thread.length;
-    const bool is_taut = away.norm() > longest;
-    balls_.push_back({begin + next, is_taut ? longest : std::max(longest, next.norm())});
+    const bool is_taut = away.norm() > thread.longest;
+    const double radius = is_taut ? thread.longest : std::max(thread.longest, next.norm());
+    balls_.push_back({begin + next, radius});
   }
+  pushes_.resize(balls_.size(), Vec3::Zero());
+}
+
+// Dykstra's projections: a ball gives back what it pushed in the sweep before, and then pushes
+// anew. They end at the nearest place in all balls, where projections alone end at any. Many pins
+// in a row take hundreds of sweeps; pushes are kept from step to step.
+Vec3 HandReach::nearest(const Vec3& target) {
+  constexpr int kSweeps = 20;
+  Vec3 place = target;
+  for (const Vec3& push : pushes_) place += push;
+  for (int sweep = 0; sweep < kSweeps; ++sweep)
+    for (std::size_t i = 0; i < balls_.size(); ++i) {
+      const auto& [centre, radius] = balls_[i];
+      const Vec3 from = place - pushes_[i] - centre;
+      const double distance = from.norm();
+      const double beyond = distance > radius ? 1 - radius / distance : 0;
+      pushes_[i] = -beyond * from;
+      place = centre + from + pushes_[i];
+    }
+  return place;
 }
 
 /// Share of a way from a place in a ball that does not leave it.
@@ -45,16 +68,8 @@ double HandReach::share_in(const Ball& ball, const Vec3& begin, const Vec3& way)
 Vec3 HandReach::move(const State& state, VertexId grabbed, const Vec3& target, double time_end,
                      double h) {
   place_balls(state, grabbed, time_end, h);
-  constexpr int kSweeps = 20;
-  Vec3 place = target;
-  for (int sweep = 0; sweep < kSweeps; ++sweep)
-    for (const Ball& ball : balls_) {
-      const double distance = (place - ball.centre).norm();
-      if (distance > ball.radius)
-        place = ball.centre + ball.radius / distance * (place - ball.centre);
-    }
   const Vec3 begin = state.positions.col(grabbed);
-  const Vec3 way = place - begin;
+  const Vec3 way = nearest(target) - begin;
   double share = std::min(1.0, kHandSpeed * h / std::max(way.norm(), kHandSpeed * h));
   for (const Ball& ball : balls_) share = std::min(share, share_in(ball, begin, way));
   return share * way;

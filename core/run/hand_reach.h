@@ -9,7 +9,8 @@
 
 namespace pleat {
 
-/// The pull of a hand [N], on cloth as wide as it holds.
+/// The pull of a hand [N], on cloth as wide as it holds: two kilogrammes, which an arm lifts with
+/// ease.
 constexpr double kHandPull = 20;
 /// Stretch that a hand gives no thread more than: woven cloth bears it.
 constexpr double kHandStretch = 0.1;
@@ -17,28 +18,38 @@ constexpr double kHandSpeed = 10;  ///< [m/s], of an arm that throws
 
 /// Bounds of a hand by the threads that it pulls: those between what it holds and the cloth around
 /// stretch by kHandStretch at most, and the ways along the cloth to the pins that hold it elsewhere
-/// by what the hand's pull is worth. Source: Kim, Chentanez, Mueller-Fischer, Long range
-/// attachments, SCA 2012, whose lengths the latter are; docs/methods/plausibility.md.
+/// by what the hand's pull is worth; neither is drawn in that was longer when the hand took hold.
+/// Source: Kim, Chentanez, Mueller-Fischer, Long range attachments, SCA 2012, whose lengths the
+/// latter are; Boyle, Dykstra, A method for finding projections onto the intersection of convex
+/// sets in Hilbert spaces, 1986; docs/methods/plausibility.md.
 class HandReach {
  public:
   /// Thread from a vertex that the hand holds to one beside it.
   struct Thread {
     VertexId held, beside;
-    double length;  // length at rest [m]
+    double longest;  // [m]
+  };
+  /// The grabbed vertex when the hand takes hold.
+  struct Grip {
+    Vec3 place;     // [m]
+    double time;    // [s]
+    double radius;  // the hand's: what it holds does not stretch [m]
   };
 
   /// ways     length along the cloth at rest from the grabbed vertex to each vertex [m]
   /// pins     without those that the hand moves
-  /// radius   the hand's [m]: what it holds does not stretch
-  /// stretch  by which the pull lengthens the rest of a way
+  /// threads  between what the hand holds and what is beside it
+  /// stretch  by which the pull lengthens the rest of a way [1]
   HandReach(const Eigen::VectorXd& ways, std::span<const Pin> pins, std::vector<Thread> threads,
-            double radius, double stretch);
+            const Grip& grip, double stretch);
 
-  /// Move of the hand in the coming step of length h [m]: towards the place nearest to the target
-  /// that the threads allow, as a few cyclic projections find it, as far as they allow the way, and
-  /// no faster than kHandSpeed.
+  /// Move of the hand [m] in the coming step of length h [s], which ends at time_end [s]: towards
+  /// the place nearest to the target that the threads allow, as far as they allow the way, and no
+  /// faster than kHandSpeed. Projections find that place within millimetres after some calls with
+  /// the same target.
   Vec3 move(const State& state, VertexId grabbed, const Vec3& target, double time_end, double h);
-  /// Largest distance of the target from a pin over the way to it at rest; 0 without pins.
+  /// Largest distance of the target [m] from a pin at this time [s] over the way to it at rest; 0
+  /// without pins.
   double asked(const Vec3& target, double time) const;
 
  private:
@@ -52,11 +63,13 @@ class HandReach {
     double radius;
   };
   void place_balls(const State& state, VertexId grabbed, double time_end, double h);
+  Vec3 nearest(const Vec3& target);
   static double share_in(const Ball& ball, const Vec3& begin, const Vec3& way);
 
   std::vector<Tether> tethers_;
   std::vector<Thread> threads_;
-  std::vector<Ball> balls_;  // bounds of the grabbed vertex's place at the end of a step
+  std::vector<Ball> balls_;   // bounds of the grabbed vertex's place at the end of a step
+  std::vector<Vec3> pushes_;  // moves by which each keeps the place from the target [m]
 };
 
 /// Lengths of the shortest ways along edges from a vertex to all [m]; infinite to other pieces.

@@ -224,7 +224,9 @@ void Simulation::grab(VertexId vertex) {
 // surfaces. A hand as wide as what it holds bears all of its pull on that width.
 HandReach Simulation::reach_of(VertexId vertex, double radius,
                                const std::vector<bool>& in_hand) const {
-  if (!scene_.cloth->is_surface() || scene_.model.tearing) return {{}, {}, {}, 0, 0};
+  const Vec3 place = state_.positions.col(vertex);
+  const HandReach::Grip grip{place, time(), radius};
+  if (!scene_.cloth->is_surface() || scene_.model.tearing) return {{}, {}, {}, grip, 0};
   const Positions& rest = rest_positions();
   const Eigen::VectorXd ways =
       mesh() ? Eigen::VectorXd((rest.colwise() - rest.col(vertex)).colwise().norm())
@@ -233,11 +235,13 @@ HandReach Simulation::reach_of(VertexId vertex, double radius,
   for (const GaugeEdge& edge : gauge_) {
     if (in_hand[edge.a] == in_hand[edge.b]) continue;
     const bool holds_a = in_hand[edge.a];
-    threads.push_back({holds_a ? edge.a : edge.b, holds_a ? edge.b : edge.a, edge.rest_length});
+    const double length = (state_.positions.col(edge.a) - state_.positions.col(edge.b)).norm();
+    threads.push_back({holds_a ? edge.a : edge.b, holds_a ? edge.b : edge.a,
+                       std::max((1 + kHandStretch) * edge.rest_length, length)});
   }
   const double per_width = std::min(scene_.fabric.stretch_warp, scene_.fabric.stretch_weft);
   const double stretch = std::min(kHandPull / (2 * radius * per_width), kHandStretch);
-  return {ways, model_.pins, std::move(threads), radius, stretch};
+  return {ways, model_.pins, std::move(threads), grip, stretch};
 }
 
 double Simulation::asked_stretch() const {

@@ -155,31 +155,55 @@ struct HeldPair {
 };
 
 TEST_CASE("hand_reach: a hand is no faster than an arm", "[run]") {
-  HandReach free({}, {}, {}, 0, 0);
+  HandReach free({}, {}, {}, {}, 0);
   const HeldPair pair;
   CHECK((pair.move(free, {0, 3, 4}, 0.1) - kHandSpeed * 0.1 * Vec3(0, 0.6, 0.8)).norm() < 1e-12);
   CHECK(pair.move(free, {0, 0.1, 0}, 0.1) == Vec3(0, 0.1, 0));
 }
 
-// Two pins 1 m apart, ways of 0.7 m: the reach is where both balls meet.
-TEST_CASE("hand_reach: it ends where ways to pins are taut", "[run]") {
+// The place of that vertex between two pins 1 m apart, with ways of 0.7 m, when a hand has wanted
+// it at a target for some steps.
+Vec3 end_between_pins(const Vec3& target, double radius = 0, double stretch = 0) {
   const std::vector<Pin> pins = {{VertexId(0), {0, 0, 0}, {}}, {VertexId(1), {1, 0, 0}, {}}};
-  const Eigen::Vector3d ways(0.7, 0.7, 0);
-  HandReach reach(ways, pins, {}, 0, 0);
-  const HeldPair pair;
+  HeldPair pair;
+  pair.state.positions.col(0) = Vec3(0.5, 0, 0);
+  HandReach reach(Eigen::Vector2d(0.7, 0.7), pins, {}, {{0.5, 0, 0}, 0, radius}, stretch);
+  for (int step = 0; step < 10; ++step) pair.state.positions.col(0) += pair.move(reach, target);
+  return pair.state.positions.col(0);
+}
+
+TEST_CASE("hand_reach: it ends where ways to pins are taut, next to its target", "[run]") {
   const double height = std::sqrt(0.7 * 0.7 - 0.25);
-  const Vec3 place = pair.move(reach, {0.5, 3, 0});
-  CHECK((place - Vec3(0.5, height, 0)).norm() < 0.1);
-  CHECK(std::max(place.norm(), (place - Vec3(1, 0, 0)).norm()) < 0.7 + 1e-12);
-  CHECK((pair.move(reach, {5, 0, 0}) - Vec3(0.7, 0, 0)).norm() < 1e-12);
-  CHECK((pair.move(reach, {0.5, 0.1, 0}) - Vec3(0.5, 0.1, 0)).norm() < 1e-12);
+  for (const Vec3& target : {Vec3(0.5, 3, 0), Vec3(0.4, 3, 0), Vec3(0.2, 1.5, 0)})
+    CHECK((end_between_pins(target) - Vec3(0.5, height, 0)).norm() < 1e-3);
+  CHECK((end_between_pins({0.7, -2, 0}) - Vec3(0.5, -height, 0)).norm() < 1e-3);
+  const Vec3 aside(0.9, 0.3, 2);  // one pin holds it back, the other way stays slack
+  CHECK((end_between_pins({0.9, 0.1, 0}) - 0.7 * Vec3(0.9, 0.1, 0).normalized()).norm() < 1e-3);
+  const double depth = std::sqrt(0.7 * 0.7 - 0.25);
+  const Vec3 on_both(0.5, depth * 0.3 / std::hypot(0.3, 2.0), depth * 2 / std::hypot(0.3, 2.0));
+  CHECK((end_between_pins(aside) - on_both).norm() < 1e-3);
+  CHECK((end_between_pins({0.5, 0.1, 0}) - Vec3(0.5, 0.1, 0)).norm() < 1e-12);
+}
+
+TEST_CASE("hand_reach: its pull lengthens what is beyond its radius", "[run]") {
+  CHECK(end_between_pins({5, 0, 0}).x() == Approx(0.7).margin(1e-3));
+  CHECK(end_between_pins({5, 0, 0}, 0.1, 0.05).x() == Approx(0.7 + 0.05 * 0.6).margin(1e-3));
+  const std::vector<Pin> pins = {{VertexId(0), {0, 0, 0}, {}}, {VertexId(1), {1, 0, 0}, {}}};
+  const HandReach reach(Eigen::Vector2d(0.7, 0.7), pins, {}, {}, 0);
   CHECK(reach.asked({0.5, 3, 0}, 0) == Approx(std::sqrt(9.25) / 0.7));
-  HandReach softer(ways, pins, {}, 0.1, 0.05);
-  CHECK(pair.move(softer, {5, 0, 0}).x() == Approx(0.7 + 0.05 * 0.6));
+}
+
+// Soft methods leave ways and threads longer than a hand would draw them.
+TEST_CASE("hand_reach: a hand that does not move draws nothing in", "[run]") {
+  HeldPair pair;
+  pair.state.positions.col(1) = Vec3(0.3, 0, 0);
+  const std::vector<Pin> pins = {{VertexId(1), {0, 0.5, 0}, {}}};
+  HandReach reach(Eigen::Vector2d(0, 0.4), pins, {{VertexId(0), VertexId(1), 0.3}}, {}, 0);
+  CHECK(pair.move(reach, {0, 0, 0}).norm() < 1e-15);
 }
 
 TEST_CASE("hand_reach: no thread beside the hand is stretched beyond a tenth", "[run]") {
-  HandReach reach({}, {}, {{VertexId(0), VertexId(1), 0.2}}, 0, 0);
+  HandReach reach({}, {}, {{VertexId(0), VertexId(1), 0.22}}, {}, 0);
   HeldPair pair;
   pair.state.positions.col(1) = Vec3(0.2, 0, 0);
   CHECK((pair.move(reach, {-1, 0, 0}) - Vec3(-0.02, 0, 0)).norm() < 1e-12);
