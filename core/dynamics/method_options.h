@@ -15,6 +15,8 @@ extern const StepperType kImplicitEuler, kImex, kProjective, kXpbd, kPbd, kHpbd,
 
 /// The most substeps of a step: with steps of 1/60 s, 17 ns each.
 constexpr int kMaxSubsteps = 1000000;
+/// The most iterations of a substep.
+constexpr int kMaxSweeps = 100000;
 /// Stands for as many substeps as the stability bound asks for.
 constexpr int kStableSubsteps = 0;
 

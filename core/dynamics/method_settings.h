@@ -105,7 +105,7 @@ inline constexpr MethodSetting kMethodSettings[] = {
                 {1, kMaxSubsteps},
                 1,
                 {"stable", &StepperType::has_stability_bound, "has no bound to be stable at"}}},
-    {"iterations", CountField{&MethodOptions::iterations, {1, 100000}}},
+    {"iterations", CountField{&MethodOptions::iterations, {1, kMaxSweeps}}},
     {"solver", word_field<&MethodOptions::solver>(kSolverNames)},
     {"tolerance", ShareField{&MethodOptions::tolerance,
                              {0, 1, NumberRange::Ends::excluded},

@@ -13,11 +13,16 @@ using Kind = RunWarning::Kind;
 
 constexpr double kFrame = 1.0 / 60;  // [s]: longer substeps fold cloth as no cloth does
 
-/// Stepper that comes to rest on any mesh, in the same step or a frame's.
+/// Count that a scene may have.
+int capped(double count, int most) {
+  return static_cast<int>(std::min(std::ceil(count), static_cast<double>(most)));
+}
+
+/// Stepper that comes to rest on any mesh, in the same step.
 MethodOptions calm_method(const MethodOptions& method) {
   MethodOptions calm = steppers::kImplicitEuler.usual_method();
-  calm.step = std::min(method.step, kFrame);
-  calm.substeps = 4;
+  calm.step = method.step;
+  calm.substeps = capped(4 * std::max(std::ceil(method.step / kFrame - 1e-6), 1.0), kMaxSubsteps);
   return calm;
 }
 
@@ -61,21 +66,22 @@ std::vector<SettingHint> hints_of_settings(Kind kind, const MethodOptions& metho
 }
 
 /// More of what the stepper takes more of, and where that is of sweeps or rounds, a stepper that
-/// solves for equilibrium; the cheaper one first.
+/// solves for equilibrium; the cheaper one first. Nothing helps what is stable already.
 std::vector<SettingHint> hints_of_counts(double excess, const MethodOptions& method) {
   const StepperType& type = *method.stepper;
   const bool takes_rounds = type.reads("iterations");
   const int times = times_for(excess, takes_rounds);
-  if (method.substeps == kStableSubsteps) return {{"/method/step_s", method.step / times}};
+  if (method.substeps == kStableSubsteps) return {};
+  if (type.has_stability_bound) return {{"/method/substeps", "stable"}};
   MethodOptions more = method;
   SettingHint hint;
   if (takes_rounds && type.solves_whole_substeps) {
-    more.iterations = std::max(type.start.iterations, 4 * method.iterations);
+    more.iterations = std::max(type.start.iterations, capped(4.0 * method.iterations, kMaxSweeps));
     hint = {"/method/iterations", more.iterations};
   } else {
     const double frames = type.solves_whole_substeps ? method.step / kFrame : 0;
-    more.substeps = std::max(
-        {type.start.substeps, times * method.substeps, static_cast<int>(std::ceil(frames))});
+    const double wanted = std::max(static_cast<double>(times) * method.substeps, frames);
+    more.substeps = std::max(type.start.substeps, capped(wanted, kMaxSubsteps));
     hint = {"/method/substeps", more.substeps};
   }
   if (!takes_rounds) return {hint};

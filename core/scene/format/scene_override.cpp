@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kMaxTokens = 32;  // depth to which JSON text may nest
 constexpr const char* kStepperPointer = "/method/stepper";
+constexpr const char* kSolverPointer = "/method/solver";
 constexpr const char* kFabricPointer = "/fabric/name";
 
 [[noreturn]] void refuse(const std::string& pointer, const std::string& expected) {
@@ -86,9 +87,25 @@ void clear_method(Json& scene, const Json& stepper, StepperTable steppers) {
   for (const MethodSetting* setting : all_settings(steppers)) method.erase(setting->key);
 }
 
+/// Leaves out what is of effect beside other solvers alone.
+void clear_idle(Json& scene, const Json& solver, StepperTable steppers) {
+  const auto method = scene.find("method");
+  if (method == scene.end() || !method->is_object()) return;
+  for (const MethodSetting* setting : all_settings(steppers)) {
+    const auto is_other = [&](const Beside& known) {
+      return std::string_view(known.key) == "solver" ? Json(known.word) != solver
+                                                     : !method->contains(known.key);
+    };
+    const auto& beside = setting->beside;
+    if (!beside.empty() && std::all_of(beside.begin(), beside.end(), is_other))
+      method->erase(setting->key);
+  }
+}
+
 /// Overrides of lower rank are set first.
 std::size_t rank(const SceneOverride& change) {
-  const bool clears = change.pointer == kStepperPointer || change.pointer == kFabricPointer;
+  const bool clears = change.pointer == kStepperPointer || change.pointer == kSolverPointer ||
+                      change.pointer == kFabricPointer;
   return 2 * tokens_of(change.pointer).size() - (clears ? 1 : 0);
 }
 
@@ -104,6 +121,7 @@ void override_scene(Json& scene, std::span<const SceneOverride> overrides, Stepp
   for (const SceneOverride* change : order) {
     if (change->pointer == kFabricPointer) clear_fabric(scene);
     if (change->pointer == kStepperPointer) clear_method(scene, change->value, steppers);
+    if (change->pointer == kSolverPointer) clear_idle(scene, change->value, steppers);
     set_value(scene, *change);
   }
 }

@@ -19,8 +19,8 @@ struct SceneOverride {
 /// A section is set before what is in it, "/method/stepper" and "/fabric/name" before their
 /// neighbours, all else in the order given. Objects that are missing on the way are made. Another
 /// stepper than the scene's leaves out all settings of "method" but "step_s", so that it takes its
-/// usual ones where nothing else is set. Another fabric's name leaves out the scene's own numbers,
-/// but for "bending" beside a name.
+/// usual ones where nothing else is set. A solver leaves out what is of no effect beside it.
+/// Another fabric's name leaves out the scene's own numbers, but for "bending" beside a name.
 ///
 /// A value that is no object though it should be is left to the scene's reader to refuse. Throws
 /// InputError{pointer} for text that is no pointer and for an element that an array does not have.

@@ -107,3 +107,14 @@ TEST_CASE("scene override: what leads nowhere is refused with its pointer", "[sc
     }
   }
 }
+
+TEST_CASE("scene override: another solver leaves out what is of no effect beside it", "[scene]") {
+  const std::string sor = R"({"method": {"stepper": "imex", "solver": "sor", "omega": 0.5}})";
+  CHECK(overridden(sor, R"({"/method/solver": "supernodal"})") ==
+        R"({"method":{"stepper":"imex","solver":"supernodal"}})");
+  CHECK(overridden(sor, R"({"/method/omega": 0.7, "/method/solver": "sor"})") ==
+        R"({"method":{"stepper":"imex","solver":"sor","omega":0.7}})");
+  const std::string jacobi =
+      R"({"method":{"omega":0.5,"smoother_before":"jacobi","stepper":"multigrid"}})";
+  CHECK(overridden(jacobi, R"({"/method/solver": "cg"})").find("omega") != std::string::npos);
+}
