@@ -105,7 +105,7 @@ void ContactMemory::foresee(const State& begin, double h) {
 // at all, whichever is faster, a hold of the share b/(r s) across n' takes that much; with all of r
 // the vertex sticks. While it slips its friction is of this hold alone, and none is remembered. It
 // is that of the last substep's force: should the vertex leave, it still has to be rubbed by it,
-// and by what settling took of its fall.
+// and by what settling took of its fall, which is what turned it round the solid too.
 ContactMemory::Plan ContactMemory::planned(const Touch& touch, const State& begin, double h,
                                            double resistance, Pressing of) {
   const VertexId v = touch.vertex;
@@ -129,7 +129,7 @@ ContactMemory::Plan ContactMemory::planned(const Touch& touch, const State& begi
   const double stop = model_.masses[v] * (gap.normal.dot(plan.velocity - fall) - turn);
   const bool goes_by_mass = of == Pressing::of_own_mass && rubbing > 0;
   const double brake = friction_of(touch) * (goes_by_mass ? std::max(stop, 0.0) : h * rubbing);
-  plan.owed = friction_of(touch) * std::max(rubbing + stopped_[v] / h, 0.0);
+  plan.owed = friction_of(touch) * std::max(pressing + stopped_[v] / h, 0.0);
   const Vec3 last_change = begin.velocities.col(v) - velocities_begin_.col(v);
   const double slip = std::max(across(along + last_change, gap.normal).norm(), along.norm());
   const double whole = resistance * slip;
@@ -248,6 +248,7 @@ void ContactMemory::let_go(State& state, double h, const Eigen::VectorXd& resist
     const VertexId v = plan.touch.vertex;
     if (plan.touch.in_corner) {
       let_go(v, state, h, resistances[v], travel_share);
+      stopped_[v] = 0;
     } else {
       settle(plan, state, h, resistances[v]);
       solved_velocities_.col(v) = state.velocities.col(v);

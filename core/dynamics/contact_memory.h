@@ -12,7 +12,8 @@ namespace pleat {
 /// then rests in equilibrium instead of falling into the solid and being put back in every substep.
 enum class ContactForces { forgotten, remembered };
 
-/// Force by which a solid presses a vertex that slips, as far as friction asks for it.
+/// Force by which a solid presses a vertex, as far as friction goes by it: how much one that slips
+/// is braked, and whether one sticks.
 enum class Pressing {
   remembered,   ///< force of the last substep
   of_own_mass,  ///< force that stops its mass: of steppers whose solve leaves much

@@ -87,7 +87,10 @@ std::span<const ContactHold::Held> ContactHold::let_loose(ContactMemory& memory,
         held.force + held.resistance * (held.velocity - velocities.col(held.vertex)) / h;
     const bool is_freed = is_pulled(held, force);
     if (!is_freed && !is_torn_loose(held, force)) continue;
-    is_freed ? memory.let_leave(held.vertex) : memory.let_slip(held.vertex);
+    if (is_freed)
+      memory.let_leave(held.vertex);
+    else
+      memory.let_slip(held.vertex);
     Held lost = held;
     held = is_freed ? freed(held, force) : slipping(held, force);
     lost.resistance -= held.resistance;
