@@ -352,6 +352,34 @@ async function checkRefused({ check, open }) {
     await close();
   });
 
+  await check(
+    'a stepper that sweeps holds as it starts, at each level that it is offered for',
+    async () => {
+      const { page, close } = await open('#scene=tablecloth&level=1');
+      await isReady(page);
+      await choice(page, 'Method').selectOption({ label: 'PBD' });
+      await isReady(page);
+      const coarse = (await stateOf(page)).setting.substeps;
+      await page.locator('.levels label').nth(2).click();
+      await isReady(page);
+      const { setting } = await stateOf(page);
+      expectThat(setting.level === 2 && setting.substeps > coarse, `${setting.substeps} substeps`);
+      await button(page, 'Play').click();
+      await until(page, (state) => state.problem || state.numbers.time_s > 1);
+      expectThat(
+        (await stateOf(page)).problem === null,
+        await page.locator('.problem').textContent(),
+      );
+      await choice(page, 'Scene').selectOption({ label: 'Curtain' });
+      await choice(page, 'Method').selectOption({ label: 'Hierarchical PBD' });
+      await isReady(page);
+      const coarsest = page.locator('.levels label').nth(0);
+      expectThat(await coarsest.locator('input').isDisabled(), 'level 0 is offered');
+      expectThat(/Nine hooks/.test(await coarsest.getAttribute('title')), 'no reason');
+      await close();
+    },
+  );
+
   await check('no invitation where there is no picture', async () => {
     const { page, close } = await open('#scene=curtain&level=0', {
       prepare: (fresh) =>

@@ -31,7 +31,7 @@ describe('setting', () => {
     const xpbd = sceneOf(withStepper(start, 'xpbd')).method as Record<string, unknown>;
     expect(implicit).not.toHaveProperty('iterations');
     expect(implicit).toHaveProperty('substeps');
-    expect(xpbd).toMatchObject({ stepper: 'xpbd', substeps: 30, iterations: 1 });
+    expect(xpbd).toMatchObject({ stepper: 'xpbd', substeps: 40, iterations: 1 });
   });
 
   it('writes 0 substeps as the word of the scene format', () => {

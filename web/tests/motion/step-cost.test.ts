@@ -9,7 +9,7 @@ describe('the cost of a step', () => {
   const costs = withCost({}, setting, 12);
 
   it('is what was measured at a level, and grows with the vertices at the others', () => {
-    const xpbd = withStepper(setting, 'xpbd');
+    const xpbd = { ...withStepper(setting, 'xpbd'), substeps: 30 };
     const measured = withCost({}, xpbd, 12);
     expect(stepCostAt(measured, xpbd, 2)).toEqual({ ms: 12, isMeasured: true, isLeast: false });
     expect(stepCostAt(measured, xpbd, 3)).toEqual({ ms: 48, isMeasured: false, isLeast: false });

@@ -195,7 +195,8 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
   const usual = withModel(own, model);
   const steppers = STEPPER_NAMES.filter((stepper) => canRun(stepper, model));
   const stepper = take('stepper', usual.stepper, steppers.join(', '), oneOf(steppers));
-  const start = withStepper(usual, stepper);
+  const level = take('level', own.level, `0 to ${levels.at(-1)}`, oneOf(levels));
+  const start = withStepper({ ...usual, level }, stepper);
   const takeCount = (count: Count, most: number) => {
     const least = numberOf(stepperRow(stepper).settings[count]?.least ?? 1);
     return take(count, start[count], `${least} to ${most}`, wholeNumber(least, most));
@@ -207,7 +208,6 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
     fabric: take('fabric', own.fabric, 'the name of a fabric', (text) => {
       return fabrics.find((fabric) => slug(fabric.name_en) === text)?.name_en;
     }),
-    level: take('level', own.level, `0 to ${levels.at(-1)}`, oneOf(levels)),
     stepS: take('step', start.stepS, '1/30 to 1/960', stepFraction),
     substeps: takeCount('substeps', MOST_SUBSTEPS),
     iterations: takeCount('iterations', MOST_ITERATIONS),

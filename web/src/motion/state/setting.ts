@@ -26,6 +26,7 @@ import {
   stepperRow,
 } from '../../shared/steppers/steppers';
 import { type Knit, knitOf, knitSection } from './knit';
+import { leastSubsteps } from './least-substeps';
 import { type Hold, type ObjMesh, objScene } from './obj-mesh';
 
 /** Values by the keys of the table of details. */
@@ -59,7 +60,11 @@ export interface Setting {
 interface SceneFile {
   name: string;
   caption: string;
-  cloth: { sheet?: object; mesh?: object; knit?: Record<string, unknown> };
+  cloth: {
+    sheet?: { columns: number; rows: number };
+    mesh?: object;
+    knit?: Record<string, unknown>;
+  };
   fabric: { name: string; overrides?: OwnQuantities };
   model?: { tearing?: object; [law: string]: unknown };
   world?: object;
@@ -168,6 +173,14 @@ export function levelsOf(preset: PresetId): readonly number[] {
   return PRESETS[preset].scene.cloth.knit ? [0] : LEVELS;
 }
 
+/** Why a level is not offered with the stepper of a setting; null where it is. */
+export function levelNeed({ preset, stepper }: Setting, level: number): string | null {
+  // No number of substeps up to 64 holds it.
+  return preset === 'curtain' && stepper === 'hpbd' && level === 0
+    ? 'Nine hooks on nine vertices leave no coarser level to this method.'
+    : null;
+}
+
 /** Both counts of a method, with the stepper's own start where the method says nothing. */
 function countsOf(stepper: string, method: { substeps?: Substeps; iterations?: number }) {
   const { settings } = stepperRow(stepper);
@@ -209,6 +222,20 @@ export function isRead(setting: Setting, key: string): boolean {
   return detailOf(setting, key) !== undefined && (!beside || Object.entries(beside).some(isBeside));
 }
 
+/** Presets whose cloth takes so many times the substeps of others: one swings down, and knits are loose. */
+const HARDER: Partial<Record<PresetId, number>> = { pendulum: 2, wool: 3 };
+
+/** Substeps with which a stepper holds a preset's cloth together; a preset has its own as far as it is made for. */
+function startSubsteps({ preset, level, stepper, stepS, substeps, knit }: Setting): number {
+  const { cloth, method, refinement } = PRESETS[preset].scene;
+  const isMade = method.stepper === stepper && level <= (refinement?.level ?? 0);
+  const mesh = knit ?? cloth.sheet;
+  if (isMade || substeps === 0 || !mesh) return substeps;
+  const nCells = Math.max(mesh.columns, mesh.rows) * 2 ** level;
+  const hardness = HARDER[preset] ?? 1;
+  return Math.max(substeps, leastSubsteps(stepperRow(stepper), hardness * nCells, stepS));
+}
+
 /** The setting a preset is made for. */
 export function presetSetting(preset: PresetId): Setting {
   const { fabric, refinement, method, cloth } = PRESETS[preset].scene;
@@ -227,12 +254,23 @@ export function presetSetting(preset: PresetId): Setting {
   };
 }
 
-/** A setting under another stepper, with that stepper's usual counts and details. */
+/** A setting under another stepper, with the counts and details that it starts with on such a mesh. */
 export function withStepper(setting: Setting, stepper: string): Setting {
   const { method: own } = PRESETS[setting.preset].scene;
   const method = own.stepper === stepper ? own : {};
-  const details = detailsOf(stepper, method);
-  return { ...setting, stepper, ...countsOf(stepper, method), details };
+  const start = { ...setting, stepper, ...countsOf(stepper, method) };
+  return { ...start, substeps: startSubsteps(start), details: detailsOf(stepper, method) };
+}
+
+/** A setting on another mesh. Substeps that nobody has chosen are those that the stepper starts with there. */
+export function withLevel(setting: Setting, level: number): Setting {
+  const { substeps } = withStepper(setting, setting.stepper);
+  if (substeps !== setting.substeps) return { ...setting, level };
+  return {
+    ...setting,
+    level,
+    substeps: withStepper({ ...setting, level }, setting.stepper).substeps,
+  };
 }
 
 /** A setting with another model, under the first stepper that can run it if its own cannot. */

@@ -1,6 +1,6 @@
 // Cost of a step on this device at each level: as measured, or as expected from another level.
 import { stepperRow } from '../../shared/steppers/steppers';
-import { COUNTS, type Setting, wantedShare } from './setting';
+import { COUNTS, type Setting, wantedShare, withLevel } from './setting';
 
 export interface StepCost {
   ms: number;
@@ -54,16 +54,19 @@ export function withCost(
 
 /** Cost that a step of this setting would have at a level; null while nothing like it was measured. */
 export function stepCostAt(costs: StepCosts, setting: Setting, level: number): StepCost | null {
-  const measuredAt = (other: number) => costs[keyOf({ ...setting, level: other })];
+  const at = (other: number) => withLevel(setting, other);
+  const measuredAt = (other: number) => costs[keyOf(at(other))];
   const own = measuredAt(level);
   if (own) return { ...own, isMeasured: true };
   const growth = growthOf(setting);
+  const substepsOver = (other: number) => at(level).substeps / at(other).substeps || 1;
   // The nearest level tells best; of two that are as near, the finer one.
   for (const away of [1, -1, 2, -2, 3, -3, 4, -4]) {
     const known = measuredAt(level + away);
     if (!known || (known.isLeast && away > 0)) continue; // a coarser level may be quick
     const isLeast = known.isLeast || away <= -LEVELS_TO_BOUND;
-    return { ms: known.ms * growth ** -away, isMeasured: false, isLeast };
+    const ms = known.ms * growth ** -away * substepsOver(level + away);
+    return { ms, isMeasured: false, isLeast };
   }
   return null;
 }

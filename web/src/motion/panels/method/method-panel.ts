@@ -10,6 +10,7 @@ import type { MotionState } from '../../state/motion-state';
 import {
   COUNTS,
   LEVELS,
+  levelNeed,
   levelsOf,
   MODEL_TRAITS,
   MODELS,
@@ -17,6 +18,7 @@ import {
   type Setting,
   STEPS_PER_SECOND,
   wantedShare,
+  withLevel,
   withModel,
   withStepper,
 } from '../../state/setting';
@@ -54,9 +56,12 @@ function levelPicker(onChoice: (level: number) => void) {
         const cost = stepCostAt(costs, setting, level);
         const [input, label, time] = [inputs[index], labels[index], times[index]];
         if (!input || !label || !time) return;
+        const need = levelNeed(setting, level);
         input.checked = level === setting.level;
-        input.setAttribute('aria-label', `Level ${level}${cost ? `, ${costSentence(cost)}` : ''}`);
-        label.title = cost ? costSentence(cost) : 'Play, and what a step takes is known.';
+        input.disabled = need !== null && !input.checked;
+        const known = need ?? (cost && costSentence(cost));
+        input.setAttribute('aria-label', `Level ${level}${known ? `, ${known}` : ''}`);
+        label.title = known ?? 'Play, and what a step takes is known.';
         setText(time, cost ? costText(cost) : '–');
       });
     },
@@ -104,6 +109,13 @@ function modelPicker(onChoice: (model: Model) => void) {
       }
     },
   };
+}
+
+/** Why a stepper cannot be chosen; null where it can. */
+function stepperNeed(stepper: string, setting: Setting): string | null {
+  if (!canRun(stepper, setting.model)) return 'needs springs';
+  const need = levelNeed({ ...setting, stepper }, setting.level);
+  return need && stepper !== setting.stepper ? 'needs a finer level' : null;
 }
 
 /** Share of the last step's equations that is left unsolved, by a method that has any. */
@@ -176,7 +188,9 @@ export function createMethodPanel(
   const model = modelPicker((chosen) =>
     store.set({ setting: withModel(store.get().setting, chosen) }),
   );
-  const level = levelPicker((chosen) => change({ level: chosen }));
+  const level = levelPicker((chosen) =>
+    store.set({ setting: withLevel(store.get().setting, chosen) }),
+  );
   const meshNote = noteLine();
   const stepper = choice(STEPPER_CHOICES, (chosen) =>
     store.set({ setting: withStepper(store.get().setting, chosen) }),
@@ -206,7 +220,7 @@ export function createMethodPanel(
   watch(store, ['setting'], ({ setting }) => {
     const row = stepperRow(setting.stepper);
     model.show(setting);
-    stepper.limit((value) => (canRun(value, setting.model) ? null : 'needs springs'));
+    stepper.limit((value) => stepperNeed(value, setting));
     stepper.select(setting.stepper);
     step.select(Math.round(1 / setting.stepS));
     const { substeps, iterations } = row.settings;

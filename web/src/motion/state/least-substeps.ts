@@ -1,0 +1,24 @@
+// The substeps that a stepper takes at least to hold a sheet of so many cells together.
+import type { StepperRow } from '../../shared/steppers/steppers';
+
+/** Steps for which the rule was measured [s]. */
+const FRAME_S = 1 / 60;
+
+/**
+ * In s substeps of i sweeps a thread of n cells is left too long by a share of n² / (s² i): weight moves it by 1/s²
+ * a substep, and a sweep carries a pull by one cell. Sheets of 16 to 128 cells hold together from this s √i / n on,
+ * in all scenes of the page; coarser levels carry a pull farther.
+ */
+const SWEPT = 1.25;
+const WITH_LEVELS = 0.25;
+
+export function leastSubsteps(
+  { settings, details, solves_whole_substeps }: StepperRow,
+  nCells: number,
+  stepS: number,
+): number {
+  const { iterations } = settings;
+  if (!iterations || solves_whole_substeps) return 1;
+  const perCell = ('levels' in details ? WITH_LEVELS : SWEPT) / Math.sqrt(Number(iterations.start));
+  return Math.ceil((perCell * nCells * stepS) / FRAME_S);
+}
