@@ -3,6 +3,7 @@
 // nobody has touched, whether its remedies heal, and whether its first pictures show what they are
 // to show. It runs the page's WebAssembly.
 import { runParts } from './parts/bench-parts.mjs';
+import { explosions } from './parts/page-truth-explosions.mjs';
 import { firstPictures } from './parts/page-truth-first-pictures.mjs';
 import { pulls } from './parts/page-truth-pulls.mjs';
 import { strips } from './parts/page-truth-strips.mjs';
@@ -10,5 +11,5 @@ import { sweep } from './parts/page-truth-sweep.mjs';
 import { untouched } from './parts/page-truth-untouched.mjs';
 
 const purpose = 'whether what the page says and shows of the cloth is true';
-const parts = { first_pictures: firstPictures, pulls, strips, sweep, untouched };
+const parts = { explosions, first_pictures: firstPictures, pulls, strips, sweep, untouched };
 await runParts('page_truth', purpose, parts, { isScaled: false });

@@ -130,6 +130,22 @@ function createPanels(
   });
 }
 
+/** Warnings of a run are told, and remedies tried, by a part that comes with the first of them. */
+function tellOfRun(store: Store<MotionState>, run: MotionRun): void {
+  const bring = later(store, 'What tells of the run', async () => {
+    (await import('./run/warnings')).tellWarnings(store, run);
+  });
+  let hasAsked = false;
+  watch(store, ['numbers'], async ({ numbers }) => {
+    const [worst] = numbers?.warnings ?? [];
+    if (!worst) hasAsked = false;
+    if (!worst || hasAsked) return;
+    hasAsked = true;
+    const isHere = (await bring()) !== null;
+    if (!isHere) store.set({ problem: { source: 'setting', sentence: `${worst.sentence}.` } });
+  });
+}
+
 /** The stitches come when a knit is first shown; without them it is drawn plain. */
 function drawKnit(store: Store<MotionState>, stage: MotionStage): void {
   let drawn: Knit | undefined;
@@ -193,6 +209,7 @@ export function createMotionView(place: Place, hash: string): MotionView {
   });
   running = run;
   const link = () => `#${encodeMotionLink(linkTo(store.get()))}`;
+  tellOfRun(store, run);
   createPanels(place, store, run, { homeView: () => stage?.homeView(), link });
   createDropTarget(
     () => isShown,

@@ -25,6 +25,6 @@ export function createProblemBanner(
     setText(help, problem?.remedy?.title ?? '');
     reset.hidden = problem?.source !== 'run';
     dismiss.hidden = problem?.source === 'browser';
-    setText(sentence, problem?.sentence ?? '');
+    setText(sentence, [problem?.sentence, problem?.help].join(' ').trim());
   });
 }

@@ -1,11 +1,9 @@
-// Reading of the reports of a run: its numbers, what a step takes, its pace, and what goes wrong.
+// Reading of the reports of a run: its numbers, what a step takes, and its pace.
 import type { RunNumbers } from '../../shared/bindings/pleat-module';
-import type { RunWarning } from '../../shared/bindings/run-warning';
 import type { RunReport } from '../../shared/workers/motion-protocol';
 import type { MotionState } from '../state/motion-state';
 import type { Setting } from '../state/setting';
 import { withCost } from '../state/step-cost';
-import { remedyForWarning } from './remedy';
 import { createStepTimer } from './step-timing';
 
 /** The pace is measured over this much of the clock [s]. */
@@ -14,14 +12,12 @@ const PACE_WINDOW_S = 1;
 export class RunReading {
   private readonly timer = createStepTimer();
   private paceFrom = { clockMs: 0, timeS: 0 };
-  private nWarned = 0; // warnings of the run that were told
 
   /** A run begins with these numbers. */
   begin(numbers: RunNumbers): void {
     this.restartPace(numbers.time_s);
     this.timer.clear();
     this.timer.feed(numbers);
-    this.nWarned = 0;
   }
 
   restartPace(timeS: number): void {
@@ -38,23 +34,7 @@ export class RunReading {
     }
     const pace = state.playing ? this.pace(numbers.time_s) : null;
     if (pace !== null) patch.pace = pace;
-    const problem = this.problemOf(numbers.warnings, state);
-    if (problem) patch.problem = problem;
     return patch;
-  }
-
-  /** The problem that a new warning is, or the one that is shown, with the remedy that its warning has by now. */
-  private problemOf(warnings: readonly RunWarning[], { problem, setting }: MotionState) {
-    const [fresh] = warnings.slice(this.nWarned);
-    this.nWarned = warnings.length;
-    if (fresh)
-      return {
-        source: 'setting',
-        warning: fresh.kind,
-        ...remedyForWarning(fresh, setting),
-      } as const;
-    const known = problem && warnings.find(({ kind }) => kind === problem.warning);
-    return known && { ...problem, remedy: remedyForWarning(known, setting).remedy };
   }
 
   /** Simulated seconds a second, once the window is over. */

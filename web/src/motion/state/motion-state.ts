@@ -36,6 +36,10 @@ export interface Problem {
   sentence: string;
   /** Kind of the run's warning that it is. */
   warning?: RunWarning['kind'];
+  /** Vertex at which the cloth is at its worst. */
+  vertex?: number;
+  /** Words on what helps, as far as that is known by now. */
+  help?: string;
   remedy?: Remedy;
 }
 

@@ -1,0 +1,117 @@
+// Tells what a run shows that its scene cannot explain, and what helps: a change is tried before it is offered.
+import type { RunNumbers } from '../../shared/bindings/pleat-module';
+import type { RunWarning } from '../../shared/bindings/run-warning';
+import { digits, shortTime, stepTitle } from '../../shared/panels/quantity';
+import { warningSentence } from '../../shared/panels/warning-words';
+import { type Store, watch } from '../../shared/state/store';
+import { type StartMotion, startMotionWorker } from '../../shared/workers/motion-client';
+import type { MotionState, Problem } from '../state/motion-state';
+import type { Setting } from '../state/setting';
+import { type Change, changesFor } from './remedy-changes';
+import { cheapest, meanStepMs, type Tried, tryChanges } from './remedy-trial';
+
+const SEEKING = 'Trying what helps…';
+
+/** Warnings of one vertex; others are of the cloth as a whole. */
+const PLACED: readonly RunWarning['kind'][] = ['stretch', 'soft', 'speed'];
+
+/** What a step costs, beside what one costs now: "14 ms a step, now 6 ms". */
+export function costWords(
+  step: { ms: number; stepS: number },
+  now: { ms: number; stepS: number },
+): string {
+  const isSameStep = Math.abs(step.stepS - now.stepS) < 1e-9;
+  const of = ({ stepS }: { stepS: number }) => (isSameStep ? '' : ` of ${stepTitle(stepS)}`);
+  const known = `${shortTime(step.ms)} a step${of(step)}`;
+  return Number.isNaN(now.ms) ? known : `${known}, now ${shortTime(now.ms)}${of(now)}`;
+}
+
+type Answer = Pick<Problem, 'help' | 'remedy'>;
+
+function offer({ change, stepMs }: Tried, cost: { ms: number; stepS: number }): Answer {
+  const { setting, what, why } = change;
+  const costs = costWords({ ms: stepMs, stepS: setting.stepS }, cost);
+  const title = `Start again with ${what}: ${costs}`;
+  return { help: why, remedy: { title, setting, startsAnew: true } };
+}
+
+/** A change that has held as far as it was seen, which was not far enough to know. */
+function guess({ change, seenS }: Tried): Answer {
+  const { setting, what } = change;
+  const seen = seenS > 0 ? `was sound for ${digits(seenS, 2)} s` : 'was not tried';
+  const title = `Start again with ${what}, which ${seen}`;
+  return {
+    help: 'What helps is not known for sure.',
+    remedy: { title, setting, startsAnew: true },
+  };
+}
+
+/** What came of trying, in words, with the change to offer. `cost`: of a step of the shown run. */
+export function answerTo(tried: readonly Tried[], cost: { ms: number; stepS: number }): Answer {
+  const best = cheapest(tried);
+  if (best) return offer(best, cost);
+  const late = tried.find(({ end }) => end === 'late');
+  if (late) return guess(late);
+  if (tried.length === 0) return { help: 'Nothing is known that would help.' };
+  const names = tried.map(({ change }) => change.what);
+  return { help: `Tried and no help: ${names.join(', ')}.` };
+}
+
+export function tellWarnings(
+  store: Store<MotionState>,
+  actions: { pause(): void },
+  start: StartMotion = startMotionWorker,
+): void {
+  const told = new Set<RunWarning['kind']>();
+  let seeking: { problem: Problem; setting: Setting; end: AbortController } | null = null;
+
+  const present = (kind: RunWarning['kind']): RunWarning | undefined =>
+    store.get().numbers?.warnings.find((warning) => warning.kind === kind);
+
+  function changes(warning: RunWarning): Change[] {
+    return changesFor(present(warning.kind) ?? warning, store.get().setting);
+  }
+
+  /** Shows a problem with this warning, and then with what helps. */
+  async function seek(warning: RunWarning, sentence: string, source: Problem['source']) {
+    const { kind } = warning;
+    const vertex = PLACED.includes(kind) ? { vertex: warning.vertex } : {};
+    const problem: Problem = { source, warning: kind, sentence, ...vertex, help: SEEKING };
+    const { setting, mesh, numbers } = store.get();
+    const end = new AbortController();
+    seeking?.end.abort();
+    seeking = { problem, setting, end };
+    store.set({ problem });
+    const question = { changes: () => changes(warning), mesh, warning };
+    const tried = await tryChanges(start, question, end.signal);
+    if (!tried) return;
+    seeking = null;
+    const now = { ms: numbers ? meanStepMs(numbers) : Number.NaN, stepS: setting.stepS };
+    store.set({ problem: { ...problem, ...answerTo(tried, now) } });
+  }
+
+  /** Tells the worst that is new, unless nonsense is told of already. */
+  function hear(numbers: RunNumbers | null): void {
+    const warnings = numbers?.warnings ?? [];
+    if (warnings.length === 0) told.clear();
+    const fresh = warnings.find(({ kind }) => !told.has(kind));
+    if (!fresh) return;
+    for (const { kind } of warnings) told.add(kind);
+    const { warning: shown } = store.get().problem ?? {};
+    if (shown && present(shown)?.is_nonsense) return;
+    void seek(fresh, warningSentence(fresh), 'setting');
+    if (fresh.is_nonsense) actions.pause();
+  }
+
+  watch(store, ['numbers'], ({ numbers }) => hear(numbers));
+  watch(store, ['problem', 'setting', 'phase'], ({ problem, setting, phase, numbers }) => {
+    if (seeking && (seeking.problem !== problem || seeking.setting !== setting)) {
+      seeking.end.abort();
+      seeking = null;
+    }
+    // A run that ended ends with words of its own; what it was warned of says what may help.
+    const [worst] = numbers?.warnings ?? [];
+    if (phase === 'stopped' && worst && problem?.source === 'run' && problem.help === undefined)
+      void seek(worst, problem.sentence, 'run');
+  });
+}
