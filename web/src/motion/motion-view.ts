@@ -178,9 +178,14 @@ function drawOverlays(
   const bringLevels = later(store, 'The drawing of levels', async () => {
     (await import('./level-drawing')).drawLevels(box, store, stage, run);
   });
-  watch(store, ['springs', 'coarse'], ({ springs, coarse }) => {
+  // What is told of the cloth stands, whether its place can be marked or not.
+  const bringPlace = later({ set: () => undefined }, 'The mark of a place', async () => {
+    (await import('./place-drawing')).drawPlace(box, store, stage);
+  });
+  watch(store, ['springs', 'coarse', 'problem'], ({ springs, coarse, problem }) => {
     if (springs) void bringSprings();
     if (coarse > 0) void bringLevels();
+    if (problem?.vertex !== undefined) void bringPlace();
   });
 }
 

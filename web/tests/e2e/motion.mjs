@@ -9,7 +9,16 @@ import {
   stateOf,
   until,
 } from './harness.mjs';
-import { alertText, button, canvasOf, choice, createTouch, PHONE, picture } from './visitor.mjs';
+import {
+  alertText,
+  button,
+  canvasOf,
+  choice,
+  createTouch,
+  PHONE,
+  picture,
+  placeOn,
+} from './visitor.mjs';
 
 /** Presses that have to take the cloth. */
 const N_PRESSES = 20;
@@ -329,7 +338,7 @@ async function checkRefused({ check, open }) {
   );
 
   await check(
-    'an explosion is told, and heals at the first press of what was tried',
+    'an explosion is told and ringed, and heals at the first press of what was tried',
     async () => {
       const { page, complaints, close } = await open(
         '#scene=tablecloth&level=2&stepper=xpbd&substeps=1',
@@ -342,6 +351,13 @@ async function checkRefused({ check, open }) {
         problem.sentence,
       );
       await until(page, (state) => !state.playing);
+      const ring = page.locator('.place-ring');
+      await ring.waitFor();
+      await picture(page);
+      const { x, y, width, height } = await ring.boundingBox();
+      const place = await placeOn(page, problem.vertex);
+      const off = Math.hypot(x + width / 2 - place.x, y + height / 2 - place.y);
+      expectThat(off < 3, `the ring is ${off} px off`);
       await until(page, (state) => state.problem.remedy);
       const told = await alertText(page);
       expectThat(/would do|does not hold/.test(told), told);
@@ -352,6 +368,7 @@ async function checkRefused({ check, open }) {
       );
       expectThat(anew.playing, 'it stands still');
       expectThat(anew.numbers.time_s < numbers.time_s + 0.3, `from ${anew.numbers.time_s} s on`);
+      expectThat(!(await ring.isVisible()), 'the ring is still there');
       const healed = await until(page, (state) => state.problem || state.numbers.time_s > 2);
       expectThat(healed.problem === null, `it still says: ${healed.problem?.sentence}`);
       expectThat(complaints.length === 0, complaints.join(' | '));
