@@ -4,6 +4,7 @@
 // to show. It runs the page's WebAssembly.
 import { runParts } from './parts/bench-parts.mjs';
 import { explosions } from './parts/page-truth-explosions.mjs';
+import { failures } from './parts/page-truth-failures.mjs';
 import { firstPictures } from './parts/page-truth-first-pictures.mjs';
 import { pulls } from './parts/page-truth-pulls.mjs';
 import { strips } from './parts/page-truth-strips.mjs';
@@ -11,5 +12,5 @@ import { sweep } from './parts/page-truth-sweep.mjs';
 import { untouched } from './parts/page-truth-untouched.mjs';
 
 const purpose = 'whether what the page says and shows of the cloth is true';
-const parts = { explosions, first_pictures: firstPictures, pulls, strips, sweep, untouched };
+const parts = { explosions, failures, first_pictures: firstPictures, pulls, strips, sweep, untouched };
 await runParts('page_truth', purpose, parts, { isScaled: false });

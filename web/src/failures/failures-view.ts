@@ -37,6 +37,9 @@ function sentenceFor(state: FailuresState, previous: FailuresState): string | nu
   return now && !before ? `Naive: ${now.title}. ${now.sentence}` : null;
 }
 
+/** Who only looks sees the first case when it has failed [s]. */
+const FIRST_SHOWN_S = 1;
+
 /** The parts of the view, empty. */
 function createLayout(root: HTMLElement) {
   const part = (name: string, className = '') =>
@@ -128,6 +131,7 @@ export function createFailuresView(root: HTMLElement, hash: string): View {
       return name in keys;
     },
   });
+  if (!first.isNamed) void duel.showAt(FIRST_SHOWN_S);
   createFailureBanner(messages, store, () => duel.retry());
   createAnnouncer(messages, store, sentenceFor);
   createSideBadges(badges, store);

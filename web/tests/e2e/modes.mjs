@@ -7,6 +7,7 @@ import {
   choice,
   createVisitor,
   drop,
+  expectInWindow,
   expectMotionWorks,
   picture,
   placeOn,
@@ -19,7 +20,7 @@ const isFound = (page) =>
 
 export async function checkModes(harness) {
   const { check, countColours } = harness;
-  const { visit, checkAccess, checkWidths, checkWithoutModule } = createVisitor(
+  const { visit, checkAccess, checkSizes, checkWidths, checkWithoutModule } = createVisitor(
     harness,
     isFound,
     'modes: ',
@@ -65,6 +66,19 @@ export async function checkModes(harness) {
         'a drag bends it',
       );
       await page.mouse.up();
+    }),
+  );
+
+  await check('modes: a worker that ends is noticed, said and replaced', () =>
+    visit('#view=modes&cells=2&mix=3:0.5', async (page) => {
+      await page.workers()[0].evaluate(() => self.close());
+      await until(page, (state) => state.problem !== null, 5000);
+      const sentence = await alertText(page);
+      expectThat(/ended by itself.*started again/.test(sentence), sentence);
+      const { amplitudes, keys } = await isFound(page);
+      expectThat(amplitudes[2] === 0.5 && keys.length === 2, 'it is another body');
+      await page.getByRole('button', { name: /^2 ?[\d.]+ Hz/ }).click();
+      await until(page, (state) => state.amplitudes[1] !== 0 && state.phase === 'ready');
     }),
   );
 
@@ -278,6 +292,16 @@ export async function checkModes(harness) {
         expectThat(sentence.includes(part), `it says: ${sentence}`);
       expectThat((await stateOf(page)).model === 'bar', 'it shows something else');
     }),
+  );
+
+  await checkSizes(
+    'Play is in sight',
+    '#view=modes&cells=2',
+    [
+      [390, 844],
+      [1280, 800],
+    ],
+    (page) => expectInWindow(button(page, 'Play')),
   );
 
   await checkAccess('#view=modes&cells=2', '#modes details');

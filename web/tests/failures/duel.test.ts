@@ -93,6 +93,17 @@ describe('a duel', () => {
     expect(positions(1)).toEqual(rest);
   });
 
+  it('shows a case at a time, and plays on from there', async () => {
+    const module = await loadFirst();
+    const { duel, store, until } = createDuel(module, 'fast_groove');
+    await duel.showAt(0.1);
+    expect(store.get().timeS).toBeCloseTo(0.1, 9);
+    expect(store.get().playing).toBe(false);
+    duel.play();
+    const { timeS } = await until(({ playing, timeS: now }) => now > 0.1 && !playing);
+    expect(timeS).toBeCloseTo(caseNamed('fast_groove').endS, 9);
+  });
+
   it('drops what belonged to the case before', async () => {
     const module = await loadFirst();
     const { duel, store, until } = createDuel(module, 'tumbling');

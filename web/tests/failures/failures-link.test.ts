@@ -4,12 +4,17 @@ import { FIRST_CASE, initialFailuresState } from '../../src/failures/state/failu
 
 describe('link of failures', () => {
   it('is of the first case when it says nothing', () => {
-    expect(decodeFailuresLink('#view=failures')).toEqual({ caseId: FIRST_CASE, problems: [] });
+    expect(decodeFailuresLink('#view=failures')).toEqual({
+      caseId: FIRST_CASE,
+      isNamed: false,
+      problems: [],
+    });
   });
 
   it('comes back as it was written', () => {
     const hash = 'view=failures&case=heavy_bead';
-    const { caseId, problems } = decodeFailuresLink(`#${hash}`);
+    const { caseId, isNamed, problems } = decodeFailuresLink(`#${hash}`);
+    expect(isNamed).toBe(true);
     expect(encodeFailuresLink(initialFailuresState(caseId, problems))).toBe(hash);
   });
 

@@ -4,7 +4,7 @@ import { milliseconds, percent } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import { caseNamed, SIDES, type Side } from '../state/failure-cases';
 import type { FailuresState } from '../state/failures-state';
-import { signsOf } from './sign-words';
+import { mainSignOf } from './sign-words';
 
 /** Least stretch that is many lengths, however many. */
 const MANY = 10;
@@ -39,10 +39,10 @@ function createBadge(parent: HTMLElement, side: Side) {
         ? 'not started'
         : `${milliseconds(msPerStep)} a step, ${stretchWords(mostStretch)}`,
     );
-    const [first] = signsOf(shown, side);
-    badge.classList.toggle('fired', first !== undefined);
+    const main = mainSignOf(shown, side);
+    badge.classList.toggle('fired', main !== undefined);
     const calm = timeS === 0 ? '' : 'looks right';
-    setText(sign, first ? `${first.title}, from ${first.timeS.toFixed(2)} s on` : calm);
+    setText(sign, main ? `${main.title}, from ${main.timeS.toFixed(2)} s on` : calm);
   };
 }
 

@@ -16,6 +16,7 @@ const SIGN_TITLES: Record<Exclude<Sign, 'measured'>, string> = {
 };
 
 export interface ShownSign {
+  sign: Sign;
   title: string;
   timeS: number;
   sentence: string;
@@ -27,6 +28,7 @@ export function signsOf({ caseId, sides }: FailuresState, side: Side): ShownSign
   const { measure } = caseNamed(caseId);
   const signs = warnings.map(
     (warning): ShownSign => ({
+      sign: warning.kind,
       title: SIGN_TITLES[warning.kind],
       timeS: warning.time_s,
       sentence: warningSentence(warning),
@@ -34,15 +36,24 @@ export function signsOf({ caseId, sides }: FailuresState, side: Side): ShownSign
   );
   if (ended)
     signs.push({
+      sign: 'ended',
       title: SIGN_TITLES.ended,
       timeS: ended.timeS,
       sentence: `The run ended at ${digits(ended.timeS, 2)} s: ${ended.sentence}. The last good frame stays.`,
     });
   if (measured && measure)
     signs.push({
+      sign: 'measured',
       title: measure.title,
       timeS: measured.timeS,
       sentence: measure.sentence(measured.value),
     });
   return signs.sort((a, b) => a.timeS - b.timeS);
+}
+
+/** The sign that the case is about, once it is seen; until then the first one. */
+export function mainSignOf(state: FailuresState, side: Side): ShownSign | undefined {
+  const signs = signsOf(state, side);
+  const { sign } = caseNamed(state.caseId);
+  return signs.find((one) => one.sign === sign) ?? signs[0];
 }

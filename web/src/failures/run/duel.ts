@@ -92,6 +92,13 @@ export class Duel {
     return this.begin((side) => this.sides[side].reset(), false);
   }
 
+  /** Shows the case that is being opened at a time, and not the way there [s]. */
+  async showAt(timeS: number): Promise<void> {
+    await this.work;
+    if (this.store.get().phase !== 'ready' || this.nSteps > 0 || this.isStepping) return;
+    await this.advance(Math.round(timeS / STEP_S));
+  }
+
   /** Opens the case, by other workers where there are none. */
   retry(): void {
     if (this.store.get().phase === 'broken') {

@@ -7,9 +7,16 @@ export function encodeFailuresLink({ caseId }: FailuresState): string {
   return `view=failures&case=${caseId}`;
 }
 
-export function decodeFailuresLink(hash: string): { caseId: string; problems: string[] } {
+interface FailuresLink {
+  caseId: string;
+  /** The link says which case. */
+  isNamed: boolean;
+  problems: string[];
+}
+
+export function decodeFailuresLink(hash: string): FailuresLink {
   const { take, finish } = createLinkReader(hash, 'failures');
   const ids = CASES.map(({ id }) => id);
-  const caseId = take('case', FIRST_CASE, `one of ${ids.join(', ')}`, oneOf(ids));
-  return { caseId, problems: finish() };
+  const named = take('case', null, `one of ${ids.join(', ')}`, oneOf(ids));
+  return { caseId: named ?? FIRST_CASE, isNamed: named !== null, problems: finish() };
 }
