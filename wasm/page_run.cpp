@@ -9,7 +9,7 @@ using emscripten::val;
 
 namespace {
 
-constexpr double kUntilCalm = 1;  // after a hand has let go [s]
+constexpr double kUntilCalm = 1;  // time since a hand has let go [s]
 
 }  // namespace
 

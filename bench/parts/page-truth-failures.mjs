@@ -6,7 +6,7 @@ import { askPage } from './command.mjs';
 
 const kCases = 10;
 const kSeconds = 2;
-const kBothMs = 6; // of a picture's 16.7, as drawing takes most of the rest
+const kBothMs = 6; // a picture has 16.7, of which drawing takes most of the rest
 
 export async function failures({ scale }) {
   tell('the cases of the view of failures');

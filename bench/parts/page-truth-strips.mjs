@@ -48,7 +48,7 @@ export async function strips() {
     tell(`strip of ${name}`);
     const fabric = { name };
     const { positions, ...run } = letDown(module, { ...scene, fabric });
-    const { world, ...airless } = scene; // at rest, air does nothing
+    const { world, ...airless } = scene; // air does nothing at rest
     const [{ positions_m }] = reference({ ...airless, fabric }, 'closed_form', [1]).samples;
     const right = droop(positions_m, columns);
     return { name, droop: droop(positions, columns), right, ...run };

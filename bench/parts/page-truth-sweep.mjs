@@ -12,7 +12,7 @@ const kReferenceLevel = 3;
 const kDuration = 0.4; // [s], until meshes move differently
 const kStep = 1 / 60; // [s]
 const kRepeat = 5;
-const kSliceMs = 200; // between reports
+const kSliceMs = 200; // a report's work
 const kNearEnough = 5e-3; // [m]
 const kMostStretch = 0.02;
 

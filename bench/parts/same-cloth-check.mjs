@@ -1,4 +1,4 @@
-// What it costs to look, after each step, whether cloth has come to rest where its model is in no
+// Cost of looking, after each step, whether cloth has come to rest where its model is in no
 // equilibrium: as a share of the steps, of cloth that rests most of the time.
 import { shippedScene } from './assets.mjs';
 import { tell } from './bench-options.mjs';

@@ -24,7 +24,7 @@ import {
 } from './state/pair';
 import type { Way } from './way';
 
-/** What hangs is seen from before, a little from the right and from above [rad]. */
+/** Direction for cloth that hangs: from before, a little from the right and from above [rad]. */
 const UPRIGHT: Direction = { azimuth: 0.4, polar: 1.34 };
 
 export interface PairWay extends Way {

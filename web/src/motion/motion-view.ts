@@ -178,7 +178,7 @@ function drawOverlays(
   const bringLevels = later(store, 'The drawing of levels', async () => {
     (await import('./level-drawing')).drawLevels(box, store, stage, run);
   });
-  // What is told of the cloth stands, whether its place can be marked or not.
+  // The warning stands, whether its place can be marked or not.
   const bringPlace = later({ set: () => undefined }, 'The mark of a place', async () => {
     (await import('./place-drawing')).drawPlace(box, store, stage);
   });

@@ -179,7 +179,7 @@ class Picture {
     return this.stage?.positions(PANES.indexOf(id)) ?? new Float32Array(0);
   }
 
-  /** What the colours of a pane show of each face or vertex. */
+  /** Values of each face or vertex that the colours of a pane show. */
   private valuesOf(id: PaneId, colour: 'curvature' | 'distance'): Float32Array {
     const ofFaces = colour === 'distance' ? this.distancesOf(id) : null;
     if (ofFaces === 'none') return new Float32Array(0);

@@ -40,7 +40,7 @@ export function createStripNames(parent: HTMLElement, store: Store<StripsState>)
     });
   });
   return {
-    /** In pixels from the stage's upper left corner; a name is as wide as its strip has room. */
+    /** Puts them there, in pixels from the stage's upper left corner; a name is as wide as its strip has room. */
     place(places: readonly { x: number; y: number }[]): void {
       const [first, second] = places;
       const room = first && second ? Math.abs(second.x - first.x) : 0;

@@ -1,4 +1,4 @@
-// What the strips show, in words and numbers; which of them is read; and how far the work is.
+// Words and numbers on the strips, the one that is read, and how far the work is.
 import { fabricNamed, fabrics, inRun } from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { button, element, setText } from '../../shared/panels/element';

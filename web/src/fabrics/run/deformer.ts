@@ -105,7 +105,7 @@ export class Deformer {
   private obj: OwnMesh | null = null; // the visitor's, as it was opened last
   private readonly restarts = new Restarts();
   private isOpen = false; // the worker has a cloth
-  private edges: RestEdges | null = null; // of the shown cloth
+  private edges: RestEdges | null = null; // edges of the shown cloth at rest
 
   constructor(
     private readonly store: Store<FabricsState>,

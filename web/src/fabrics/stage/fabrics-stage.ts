@@ -24,7 +24,7 @@ export interface Direction {
   polar: number;
 }
 
-/** From above enough to see a level sheet's shape. */
+/** Direction from above enough to see a level sheet's shape. */
 const LEVEL: Direction = { azimuth: 0.5, polar: 1.08 };
 
 /** The floor lies under the cloth by this part of its size. */

@@ -16,7 +16,7 @@ export interface StripSizes {
 }
 
 export interface StripsStageEvents {
-  /** Where the names belong in this picture, in pixels from the canvas's upper left corner. */
+  /** Gets where the names belong in this picture, in pixels from the canvas's upper left corner. */
   drawn(places: readonly { x: number; y: number }[]): void;
   key(name: string): boolean;
   pictureLost(isLost: boolean): void;
@@ -28,7 +28,7 @@ export interface StripMesh {
   buffer: ArrayBuffer;
 }
 
-/** From far away and a little from the right and above: strips farther off look as large as near ones. */
+/** The view from far away, a little from the right and above: strips farther off look as large as near ones. */
 const FOV = 12;
 const AZIMUTH = 0.42;
 const POLAR = 1.3;
@@ -185,7 +185,7 @@ export function createStripsStage(
     pictureLost: events.pictureLost,
   });
   stage.grid.set(1, 1);
-  stage.surroundings.setShadows(false); // those of one shelf would fall on the strips of the next
+  stage.surroundings.setShadows(false); // one shelf's would fall on the strips of the next
   stage.open();
 
   function place(): void {

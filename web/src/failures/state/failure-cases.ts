@@ -27,7 +27,7 @@ export interface Measure {
   title: string;
   /** A number of the shape at a time [s], from its positions, three numbers a vertex [m]. */
   of(positions: ArrayLike<number>, timeS: number): number;
-  /** What is more than this is a failure. */
+  /** The most that is no failure. */
   bound: number;
   /** The sentence for the worst value. */
   sentence(value: number): string;

@@ -2,7 +2,7 @@
 
 type Vector = [number, number, number];
 
-/** What the file of a scene says, beside its method. */
+/** A scene as its file has it, without its method. */
 export type Scene = Record<string, unknown>;
 
 export const CELLS = 24;
@@ -20,7 +20,7 @@ const LEVEL = {
   weft_direction: [1, 0, 0],
 };
 
-/** The same, upright. */
+/** A sheet like that, upright. */
 const UPRIGHT = { ...LEVEL, origin_m: [-0.5, 1.5, 0], warp_direction: [0, -1, 0] };
 
 const COTTON = { name: 'fine cotton' };

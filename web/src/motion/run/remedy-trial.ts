@@ -19,7 +19,7 @@ const PATIENCE_MS = 4000;
 /** A step that takes longer than all of that is cut short after so much more [ms]. */
 const GRACE_MS = 2000;
 
-/** What has held for so much longer than the run did holds, unless there is time to look further [s]. */
+/** A change that has held for so much longer than the run did holds, unless there is time to look further [s]. */
 const BEYOND_S = 1;
 /** So far is looked, by when most scenes have come to hang [s], but no longer than that for each [ms]. */
 const FAR_S = 3;

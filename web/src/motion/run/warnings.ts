@@ -15,7 +15,7 @@ const SEEKING = 'Trying what helps…';
 /** Warnings of one vertex; others are of the cloth as a whole. */
 const PLACED: readonly RunWarning['kind'][] = ['stretch', 'soft', 'speed'];
 
-/** What a step costs, beside what one costs now: "14 ms a step, now 6 ms". */
+/** Words on the cost of a step, beside what one costs now: "14 ms a step, now 6 ms". */
 export function costWords(
   step: { ms: number; stepS: number },
   now: { ms: number; stepS: number },
@@ -46,7 +46,7 @@ function guess({ change, seenS }: Tried): Answer {
   };
 }
 
-/** What came of trying, in words, with the change to offer. `cost`: of a step of the shown run. */
+/** Words on what came of trying, with the change to offer. `cost`: of a step of the shown run. */
 export function answerTo(tried: readonly Tried[], cost: { ms: number; stepS: number }): Answer {
   const best = cheapest(tried);
   if (best) return offer(best, cost);

@@ -43,7 +43,7 @@ export function createPlaceRing(
     },
     update(positions) {
       if (shown !== null && 3 * shown >= positions.length) this.show(null);
-      queueMicrotask(place); // by when the camera is that of the picture
+      queueMicrotask(place); // the camera is that of the picture then
     },
     clear() {
       this.show(null);

@@ -5,7 +5,7 @@ import type { StepperRow } from '../../shared/steppers/steppers';
 const FRAME_S = 1 / 60;
 
 /**
- * In s substeps of i sweeps a thread of n cells is left too long by a share of n² / (s² i): weight moves it by 1/s²
+ * A thread of n cells is left too long, in s substeps of i sweeps, by a share of n² / (s² i): weight moves it by 1/s²
  * a substep, and a sweep carries a pull by one cell. Sheets of 16 to 128 cells hold together from this s √i / n on,
  * in all scenes of the page; coarser levels carry a pull farther.
  */

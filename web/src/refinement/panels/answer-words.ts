@@ -9,7 +9,7 @@ import {
   showsFineCloth,
 } from '../state/refinement-state';
 
-/** Beyond this share of the other mesh's distance, nobody would call the planned one much nearer. */
+/** Largest share of the other mesh's distance at which the planned one is called much nearer. */
 const MUCH_NEARER = 0.5;
 
 const NAMES: Record<GarmentId, { title: string; verb: string; one: string }> = {

@@ -36,7 +36,7 @@ export function costWords({ source, msPerFrame }: GarmentPane, isFineCloth: bool
   }
 }
 
-/** The same quantity as the colours of distance show. */
+/** Words on the quantity that the colours of distance show. */
 export function errorWords(pane: PaneId, { distanceM, source }: GarmentPane): string {
   if (pane === 'fine') return source === 'resting' ? '' : 'what the others are held against';
   return distanceM === null ? '' : `${smallLength(distanceM)} off fine`;

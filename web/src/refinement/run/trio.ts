@@ -244,7 +244,7 @@ export class Trio {
     const state = this.store.get();
     const { timeS, startS } = state;
     const isComputed = isComputedHere(state);
-    this.latest.start(); // what is under way is of the workers that are ended
+    this.latest.start(); // answers under way are of the workers that are ended
     this.panes.renew();
     this.parts.planner.cancel();
     this.isBuilt = false;

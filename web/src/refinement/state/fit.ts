@@ -1,4 +1,4 @@
-// What the light goes by that tells whether a motion fits the plan's examples.
+// The share by which a light tells whether a motion fits the plan's examples.
 import type { FitAnswer } from '../bindings/refinement-module';
 import { FRAMES_TO_FIRE } from './garment-frames';
 
