@@ -2,6 +2,9 @@
 import { expectThat, isReady, largestMove, positionsOf, stateOf, until } from './harness.mjs';
 import { alertText, button, canvasOf, createVisitor, expectInWindow, picture } from './visitor.mjs';
 
+/** A picture that is drawn soon, without a graphics card. */
+const SMALL = { width: 760, height: 420 };
+
 const isLoaded = (page) => until(page, (state) => state.phase === 'ready' && state.sides);
 /** Of a side, as it is read above its pane. */
 const badgeOf = (page, title) =>
@@ -23,31 +26,35 @@ export async function checkFailures(harness) {
   }
 
   await check('failures: each case shows its sign within 2 s, ours none, and a reset ends it', () =>
-    visit('#view=failures', async (page) => {
-      const titles = await page.locator('.case-list button').allTextContents();
-      expectThat(titles.length === 10, `${titles.length} cases`);
-      await until(page, (state) => state.timeS > 0); // the first is shown later than its start
-      for (const title of [...titles.slice(1), ...titles.slice(0, 1)]) {
-        await button(page, title).click();
-        await until(page, (state) => state.phase === 'ready' && state.timeS === 0);
-        const [naive, ours] = [await positionsOf(page, 0), await positionsOf(page, 1)];
-        expectThat(naive.length >= 3 * 625, `${title}: ${naive.length / 3} vertices`);
-        expectThat(largestMove(naive, ours) === 0, `${title}: they begin in different places`);
-        expectThat((await countColours(await picture(page))) > 100, `${title}: a blank picture`);
-        await button(page, 'Play').click();
-        await until(page, (state) => state.timeS > 0 && !state.playing);
-        const [fired, calm] = [await badgeOf(page, 'Naive'), await badgeOf(page, 'Ours')];
-        const since = Number(/from ([\d.]+) s on/.exec(fired)?.[1] ?? Number.NaN);
-        expectThat(since <= 2, `${title}: naive says ${fired}`);
-        expectThat(/looks right/.test(calm), `${title}: ours says ${calm}`);
-        const apart = largestMove(await positionsOf(page, 0), await positionsOf(page, 1));
-        expectThat(apart > 0.05, `${title}: they are ${apart} m apart`);
-        await button(page, 'Reset').click();
-        await until(page, (state) => state.phase === 'ready' && state.timeS === 0);
-        expectThat(largestMove(naive, await positionsOf(page, 0)) === 0, `${title}: no way back`);
-        expectThat(/not started/.test(await badgeOf(page, 'Naive')), `${title}: the sign stays`);
-      }
-    }),
+    visit(
+      '#view=failures',
+      async (page) => {
+        const titles = await page.locator('.case-list button').allTextContents();
+        expectThat(titles.length === 10, `${titles.length} cases`);
+        await until(page, (state) => state.timeS > 0); // the first is shown later than its start
+        for (const title of [...titles.slice(1), ...titles.slice(0, 1)]) {
+          await button(page, title).click();
+          await until(page, (state) => state.phase === 'ready' && state.timeS === 0);
+          const [naive, ours] = [await positionsOf(page, 0), await positionsOf(page, 1)];
+          expectThat(naive.length >= 3 * 625, `${title}: ${naive.length / 3} vertices`);
+          expectThat(largestMove(naive, ours) === 0, `${title}: they begin in different places`);
+          expectThat((await countColours(await picture(page))) > 100, `${title}: a blank picture`);
+          await button(page, 'Play').click();
+          await until(page, (state) => state.timeS > 0 && !state.playing);
+          const [fired, calm] = [await badgeOf(page, 'Naive'), await badgeOf(page, 'Ours')];
+          const since = Number(/from ([\d.]+) s on/.exec(fired)?.[1] ?? Number.NaN);
+          expectThat(since <= 2, `${title}: naive says ${fired}`);
+          expectThat(/looks right/.test(calm), `${title}: ours says ${calm}`);
+          const apart = largestMove(await positionsOf(page, 0), await positionsOf(page, 1));
+          expectThat(apart > 0.05, `${title}: they are ${apart} m apart`);
+          await button(page, 'Reset').click();
+          await until(page, (state) => state.phase === 'ready' && state.timeS === 0);
+          expectThat(largestMove(naive, await positionsOf(page, 0)) === 0, `${title}: no way back`);
+          expectThat(/not started/.test(await badgeOf(page, 'Naive')), `${title}: the sign stays`);
+        }
+      },
+      SMALL,
+    ),
   );
 
   await check('failures: a hand takes the cloth in either pane, and play goes on', () =>
