@@ -12,7 +12,6 @@ import { createKeyList, type Keys } from '../shared/panels/keys-panel';
 import { openStage } from '../shared/panels/open-stage';
 import { objText, save } from '../shared/panels/saving';
 import { createStageCanvas } from '../shared/panels/stage-canvas';
-import { roundedUp } from '../shared/stage/colormap';
 import { createLinkWriter } from '../shared/state/link-writer';
 import { createStore, type Store, watch } from '../shared/state/store';
 import type { SolidsAnswer } from './bindings/refinement-module';
@@ -59,6 +58,9 @@ const KEYS: Keys = [
 
 /** Least width of a pane: in a narrower one a person is too small to compare folds [CSS pixels]. */
 const LEAST_PANE_WIDTH = 180;
+
+/** Digits of a scale's end. */
+const SCALE_DIGITS = 2;
 
 /** Distances of a mesh's faces [m], `none` where there is nothing to tell, null where only vertices have some. */
 type Distances = Float32Array | 'none' | null;
@@ -192,7 +194,7 @@ class Picture {
     const { colour, ranges, playing } = state;
     if (colour !== 'curvature' && colour !== 'distance') return;
     const ends = comparedPanes(state).map((id) => upperEnd(this.valuesOf(id, colour)));
-    const most = roundedUp(Math.max(...ends));
+    const most = Number(Math.max(...ends).toPrecision(SCALE_DIGITS));
     const fits = playing ? most <= ranges[colour] : most === 0 || most === ranges[colour];
     if (!fits) this.store.set({ ranges: { ...ranges, [colour]: most } });
   }

@@ -144,7 +144,7 @@ export async function checkRefinement(harness) {
   });
 
   await check('refinement: plays three panes in step, in positions and in pixels', () =>
-    visit('#view=refinement&colour=material&edges=off', async (page) => {
+    visit('#view=refinement&colour=material&edges=off&start=2', async (page) => {
       const before = [];
       for (const pane of [0, 1, 2]) before.push(await positionsOf(page, pane));
       const still = await picture(page);

@@ -29,10 +29,10 @@ const withPanes = (patch: Partial<RefinementState['panes']>): RefinementState =>
 describe('the answer of the picture', () => {
   it('says how far off each mesh is, and at what cost', () => {
     expect(answerSentence(STATE)).toBe(
-      'The multi-resolution skirt is 2.1 mm off the fine one, the coarse one 4.9 mm, at 10 % of its time.',
+      'The multi-resolution skirt is 2.1 mm off the fine one at 10 % of its time; the coarse one is 4.9 mm off.',
     );
     expect(answerSentence({ ...STATE, garment: 'trousers' })).toContain(
-      'trousers are 2.1 mm off the fine ones, the coarse ones 4.9 mm',
+      'trousers are 2.1 mm off the fine ones at 10 % of their time; the coarse ones are 4.9 mm',
     );
     const here = withPanes({ planned: { ...planned, source: 'computed' } });
     expect(answerSentence(here)).toContain('with 16 % of its vertices');

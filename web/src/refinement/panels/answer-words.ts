@@ -1,5 +1,5 @@
 // The answer that the picture gives, in a sentence: how far from the fine cloth each mesh is now, and at what cost.
-import { digits, percent, smallLength } from '../../shared/panels/quantity';
+import { percent, smallLength } from '../../shared/panels/quantity';
 import type { GarmentId } from '../state/garments';
 import {
   comparedPanes,
@@ -12,20 +12,23 @@ import {
 /** Largest share of the other mesh's distance at which the planned one is called much nearer. */
 const MUCH_NEARER = 0.5;
 
-const NAMES: Record<GarmentId, { title: string; verb: string; one: string }> = {
-  skirt: { title: 'skirt', verb: 'is', one: 'one' },
-  trousers: { title: 'trousers', verb: 'are', one: 'ones' },
-  slim_trousers: { title: 'trousers', verb: 'are', one: 'ones' },
+const SKIRT = { title: 'skirt', verb: 'is', one: 'one', whose: 'its' };
+const TROUSERS = { title: 'trousers', verb: 'are', one: 'ones', whose: 'their' };
+const NAMES: Record<GarmentId, typeof SKIRT> = {
+  skirt: SKIRT,
+  trousers: TROUSERS,
+  slim_trousers: TROUSERS,
 };
 
 const nameOf = (id: PaneId) => PANE_TITLES[id].toLowerCase();
 
 /** The share of the fine mesh's cost that the planned one has: of its time where both were timed alike. */
-function costWords({ panes: { planned, fine } }: RefinementState): string {
+function costWords({ garment, panes: { planned, fine } }: RefinementState): string {
+  const { whose } = NAMES[garment];
   const isTimedAlike = planned.source === fine.source && planned.msPerFrame && fine.msPerFrame;
   if (isTimedAlike)
-    return `at ${percent((planned.msPerFrame ?? 0) / (fine.msPerFrame ?? 1))} of its time`;
-  return `with ${percent(planned.nVertices / fine.nVertices)} of its vertices`;
+    return `at ${percent((planned.msPerFrame ?? 0) / (fine.msPerFrame ?? 1))} of ${whose} time`;
+  return `with ${percent(planned.nVertices / fine.nVertices)} of ${whose} vertices`;
 }
 
 /** Words on cloth that goes through itself in what is shown; null where it does not. */
@@ -35,7 +38,7 @@ export function tangleSentence(state: RefinementState): string | null {
     n: state.panes[id].faults?.n_crossings ?? 0,
   }));
   if (counts.every(({ n }) => n === 0)) return null;
-  const list = counts.map(({ id, n }) => `${nameOf(id)} ${digits(n, 3)}`).join(', ');
+  const list = counts.map(({ id, n }) => `${nameOf(id)} ${n}`).join(', ');
   return `Cloth passes through itself here (edges: ${list}): nothing guards against that yet, so this moment says nothing about meshes.`;
 }
 
@@ -50,5 +53,5 @@ export function answerSentence(state: RefinementState): string {
   if (ours > MUCH_NEARER * theirs && !showsFineCloth(state))
     return `Once they move, meshes go ways of their own: the multi-resolution one is ${near} off the fine one, the ${nameOf(rival)} one ${far}.`;
   const { title, verb, one } = NAMES[garment];
-  return `The multi-resolution ${title} ${verb} ${near} off the fine ${one}, the ${nameOf(rival)} ${one} ${far}, ${costWords(state)}.`;
+  return `The multi-resolution ${title} ${verb} ${near} off the fine ${one} ${costWords(state)}; the ${nameOf(rival)} ${one} ${verb} ${far} off.`;
 }

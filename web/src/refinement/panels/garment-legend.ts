@@ -66,10 +66,7 @@ export function createGarmentLegend(parent: HTMLElement, store: Store<Refinement
       setText(title, 'Curvature now');
       setText(high, `${digits(ranges.curvature, 2)} 1/m and more`);
     } else if (colour === 'distance') {
-      setText(
-        title,
-        'How far each face is off the fine cloth; grey where there is nothing to tell',
-      );
+      setText(title, 'How far each face is off the fine cloth (grey)');
       setText(high, `${smallLength(ranges.distance)} and more`);
     }
   });

@@ -38,7 +38,7 @@ export function costWords({ source, msPerFrame }: GarmentPane, isFineCloth: bool
 
 /** Words on the quantity that the colours of distance show. */
 export function errorWords(pane: PaneId, { distanceM, source }: GarmentPane): string {
-  if (pane === 'fine') return source === 'resting' ? '' : 'what the others are held against';
+  if (pane === 'fine') return source === 'resting' ? '' : 'the reference';
   return distanceM === null ? '' : `${smallLength(distanceM)} off fine`;
 }
 
