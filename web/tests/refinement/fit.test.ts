@@ -11,7 +11,7 @@ import {
 } from '../../src/refinement/panels/fit-words';
 import { sceneFiles } from '../../src/refinement/run/scene-files';
 import { type Fit, LastingShare } from '../../src/refinement/state/fit';
-import { LARGEST_SHARE } from '../../src/refinement/state/garment-frames';
+import { FRAMES_TO_FIRE, LARGEST_SHARE } from '../../src/refinement/state/garment-frames';
 import { sceneText } from '../../src/refinement/state/garments';
 import type { PlanStory } from '../../src/refinement/state/plan-file';
 import {
@@ -116,6 +116,12 @@ describe('the light', () => {
     const walk = { ...squat, motion: 'walk' as const };
     expect(isExample(walk)).toBe(true);
     expect(canPlanAnew({ ...walk, fabric: 'silk' })).toBe(true);
+  });
+
+  it('goes by no share before as many frames were seen as it has to last', () => {
+    const lasting = new LastingShare();
+    const found = Array.from({ length: FRAMES_TO_FIRE }, () => lasting.add(0.2));
+    expect(found).toEqual([...Array(FRAMES_TO_FIRE - 1).fill(0), 0.2]);
   });
 
   it('goes by a number that exceeds its bound in the very frame in which the monitor fires', async () => {
