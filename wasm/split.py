@@ -7,7 +7,8 @@ WHOLE   the module as it was linked, with names of functions
 FIRST   a module of the same objects linked with the bindings of a first visit alone, with names
 
 A function of WHOLE whose name FIRST lacks goes to the rest, but for what initialises the module. Where WHOLE has
-several of one name, all stay. What CHOLMOD does with complex matrices goes there too: none is one.
+several of one name, all stay. What CHOLMOD does with matrices that are complex or not symmetric goes there too: core
+has none of them.
 """
 import re
 import subprocess
@@ -19,7 +20,9 @@ FEATURES = ["--enable-simd", "--enable-exception-handling", "--enable-bulk-memor
             "--enable-mutable-globals", "--enable-nontrapping-float-to-int"]
 # As Emscripten calls it for its modules; then again, which takes another hundredth.
 SMALL = ["-Oz", "--converge", "--low-memory-unused", "--zero-filled-memory"]
-COMPLEX = re.compile(r"[cz]_(change|cholmod|ldl|ll|simplicial)_")
+# Parts of CHOLMOD for matrices that are complex, and for such as are not symmetric.
+OTHER_MATRICES = re.compile(r"[cz]t?_(change|cholmod|ldl|ll|simplicial)_|"
+                            r"([rp]_)?cholmod_transpose_unsym$|cholmod_(aat|colamd)$|colamd")
 STRIPPED = ["--post-emscripten", "--strip-debug", "--strip-producers"]
 
 
@@ -49,7 +52,7 @@ def main():
     graph = calls(whole)
     needed = reached(graph, [*calls(first), "__wasm_call_ctors"])
     rest = [name for name in graph
-            if COMPLEX.match(name) or (name not in needed and re.sub(r"_\d+$", "", name) not in needed)]
+            if OTHER_MATRICES.match(name) or (name not in needed and re.sub(r"_\d+$", "", name) not in needed)]
     with tempfile.NamedTemporaryFile(mode="w", suffix=".functions") as names:
         names.write("\n".join(rest))
         names.flush()
