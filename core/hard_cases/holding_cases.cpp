@@ -44,7 +44,7 @@ std::vector<HardCase> holding_cases() {
       {.name = "torn_corner",
        .breaks =
            "A hand tears a corner off: vertices without faces, mass that is lost, or a throw.",
-       .seconds = {1.5, 5},
+       .seconds = {1.5, 1.5},  // a piece that is torn off falls freely from then on
        .events = {{0.2, HandGrabs{VertexId(kLowerRight)}},
                   {0.2, HandMoves{{0.3, -0.1, 0.4}}},
                   {0.6, HandMoves{{0.6, -0.2, 0.8}}},
