@@ -4,10 +4,11 @@ import type { View } from '../shared/page/view';
 import '../shared/page/panes.css';
 import './fabrics.css';
 import './panel.css';
+import { createDropTarget } from '../shared/panels/drop-target';
 import { element } from '../shared/panels/element';
 import { createSegments, type Segment } from '../shared/panels/segments';
 import { createPairView, type PairWay } from './pair-view';
-import { createShapesView, type ShapesActions } from './shapes-view';
+import { createShapesView, type ShapesActions, type ShapesWay } from './shapes-view';
 import { type WayId, wayIn } from './state/ways';
 import { createStripsView } from './strips-view';
 import type { Way } from './way';
@@ -30,6 +31,7 @@ export function createFabricsView(root: HTMLElement, hash: string, actions: Fabr
   let isShown = false;
   let shown: WayId = wayIn(hash);
   let pair: PairWay | null = null;
+  let shapes: ShapesWay | null = null;
   const ways = new Map<WayId, { way: Way; boxes: HTMLElement[] }>();
   const choice = createSegments(
     'way',
@@ -42,7 +44,10 @@ export function createFabricsView(root: HTMLElement, hash: string, actions: Fabr
 
   const makers: Record<WayId, (box: HTMLElement, panel: HTMLElement, at: string) => Way> = {
     strips: (box, panel, at) => createStripsView(box, panel, at, { move: showInMotion }),
-    shapes: (box, panel, at) => createShapesView(box, panel, at, actions),
+    shapes(box, panel, at) {
+      shapes = createShapesView(box, panel, at, actions);
+      return shapes;
+    },
     pair(box, panel, at) {
       pair = createPairView(box, panel, at);
       return pair;
@@ -75,6 +80,13 @@ export function createFabricsView(root: HTMLElement, hash: string, actions: Fabr
     pair?.wear(fabric);
   }
 
+  createDropTarget(
+    () => isShown,
+    (file) => {
+      show('shapes');
+      shapes?.take(file);
+    },
+  );
   show(shown, hash);
   const now = () => ways.get(shown)?.way;
   return {

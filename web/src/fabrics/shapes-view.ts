@@ -4,7 +4,6 @@ import type { StartShape } from '../shared/page/view';
 import '../shared/page/energies.css';
 import type { Collider } from '../shared/bindings/geometry';
 import { createAnnouncer } from '../shared/panels/announcer';
-import { createDropTarget } from '../shared/panels/drop-target';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
 import { createInvitation } from '../shared/panels/invitation';
@@ -249,12 +248,17 @@ function createTools(
 }
 
 /** `left` takes its messages, stage and tools. */
+export interface ShapesWay extends Way {
+  /** Takes a visitor's mesh. */
+  take(file: File): void;
+}
+
 export function createShapesView(
   left: HTMLElement,
   panel: HTMLElement,
   hash: string,
   actions: ShapesActions,
-): Way {
+): ShapesWay {
   const first = decodeFabricsLink(hash);
   const store = createStore(initialFabricsState(first.link, first.problems));
   let isShown = false;
@@ -278,16 +282,13 @@ export function createShapesView(
   createAnnouncer(messages, store, fabricsSentence);
   createTools(toolBox, store, deformer, () => picture.stage?.homeView(), actions);
   createPanels(panel, store, deformer, picture);
-  createDropTarget(
-    () => isShown,
-    (file) => void deformer.openObj(file),
-  );
   deformer.openExperiment(first.link.experiment, first.link);
 
   const link = () => `#${encodeFabricsLink(store.get())}`;
   const writeLink = createLinkWriter(store, link, () => isShown && store.get().cloth !== null);
   return {
     link,
+    take: (file) => void deformer.openObj(file),
     open(newHash) {
       const read = decodeFabricsLink(newHash);
       const { objName, objUnit, objOdd } = store.get();

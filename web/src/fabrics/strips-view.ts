@@ -42,6 +42,7 @@ export function createStripsView(
 ): Way {
   const store = createStore(initialStripsState());
   let isShown = false;
+  let isResting = false; // stopped while another view is shown
   let stage: StripsStage | null = null;
   const messages = element('div');
   const stageBox = element('section', { class: 'stage strips', 'aria-label': 'Strips of cloth' });
@@ -98,6 +99,9 @@ export function createStripsView(
     open: (newHash) => store.set({ problem: linkFailure(problemsIn(newHash), null) }),
     setShown(value) {
       isShown = value;
+      if (value && isResting) run.go();
+      isResting = !value && store.get().phase === 'running';
+      if (isResting) run.stop();
       writeLink();
     },
     probe: {

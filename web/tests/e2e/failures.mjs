@@ -5,6 +5,14 @@ import { alertText, button, canvasOf, createVisitor, expectInWindow, picture } f
 /** A picture that is drawn soon, without a graphics card. */
 const SMALL = { width: 760, height: 420 };
 
+/** Cases by the warnings that lead to them. */
+const LED_TO = {
+  stretch: 'gathered_curtain',
+  soft: 'gathered_curtain',
+  speed: 'long_step',
+  unsolved: 'heavy_bead',
+};
+
 const isLoaded = (page) => until(page, (state) => state.phase === 'ready' && state.sides);
 /** Of a side, as it is read above its pane. */
 const badgeOf = (page, title) =>
@@ -106,6 +114,7 @@ export async function checkFailures(harness) {
       const { caseId } = await isLoaded(page);
       const shown = page.locator('.case-list button[aria-pressed="true"]');
       expectThat((await shown.textContent()) !== '', 'no case is chosen');
+      expectThat(caseId === LED_TO[problem.warning], `${problem.warning} leads to ${caseId}`);
       expectThat(page.url().includes(`case=${caseId}`), `${problem.warning}: ${page.url()}`);
     }),
   );

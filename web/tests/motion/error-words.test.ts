@@ -81,7 +81,7 @@ describe('error words', () => {
       against({}, { ...own, level: own.level + 1 }),
     ]) {
       expect(words.value).not.toMatch(/\d/);
-      expect(words.sentence).toContain(`has that of level ${own.level}: choose it`);
+      expect(words.sentence).toContain(`Choose level ${own.level} to compare`);
     }
   });
 

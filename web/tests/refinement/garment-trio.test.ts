@@ -567,6 +567,7 @@ describe('trio', () => {
         /^No frames .*3\.00 s cannot be shown at once.* from 0\.00 s on/,
       );
       trio.seek(1); // nothing comes of it
+      expect((await settled(isReady)).timeS).toBe(0);
       const ended = stand({ startS: 9 });
       const state = await ended.settled(isReady);
       expect(state.startS).toBe(state.endS);

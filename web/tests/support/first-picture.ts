@@ -32,6 +32,8 @@ export interface ShownMesh {
   n_vertices: number;
   /** Distance from the fine cloth, by the same measure for all, root mean square [m]. */
   off_m: number;
+  /** Shape that its faces cannot show, with its vertices on the fine cloth [m]. */
+  lost_m: number;
   /** Edges that go through the cloth itself. */
   n_crossings: number;
 }
@@ -56,9 +58,10 @@ export async function firstPicture(): Promise<ShownMesh[]> {
   );
   const fine = panes.at(-1)?.places ?? new Float32Array(0);
   return panes.map(({ mesh, run, places }) => {
-    const { rms_m: off } = answered<{ rms_m: number }>(run.compare(fine));
+    const told = answered<{ rms_m: number; lost_m: number }>(run.compare(fine));
+    const { rms_m: off_m, lost_m } = told;
     const { n_crossings } = answered<{ n_crossings: number }>(run.faults());
     run.delete();
-    return { mesh, n_vertices: places.length / 3, off_m: off, n_crossings };
+    return { mesh, n_vertices: places.length / 3, off_m, lost_m, n_crossings };
   });
 }

@@ -55,7 +55,7 @@ function times(ratio: number): string {
 /** The sentence why no motion starts from such a shape; null where one does. */
 export function startRefusal({ longest, shortest }: EdgeReach): string | null {
   if (longest > BORNE)
-    return `Stretched to ${times(longest)} times somewhere; woven cloth bears about ${BORNE}. Pull it less far to let it go.`;
+    return `Stretched to ${times(longest)} times somewhere; a run starts from at most ${BORNE} times, about what woven cloth bears. Pull it less far to let it go.`;
   if (shortest < BORNE_SHORT)
     return `Pushed together to ${shortest.toPrecision(2)} of its length somewhere, where cloth would fold. Push it less far to let it go.`;
   return null;

@@ -35,7 +35,7 @@ export const PAIR_SCENES = {
   strip: {
     title: 'Strip over an edge',
     caption:
-      'Both strips are let go at once. The limp one swings down, the stiff one holds itself.',
+      'Both strips are let go at once: the limper a fabric, the farther its strip swings down.',
     scene: STRIP,
     fallsBy: OVERHANG_M,
   },

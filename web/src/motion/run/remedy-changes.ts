@@ -1,7 +1,7 @@
 // Changes of a setting that may help its run: the counts that its stepper starts with, those that a warning
 // hints at, more of the same, and a calm method.
 import type { RunWarning } from '../../shared/bindings/run-warning';
-import { type Count, stepperRow } from '../../shared/steppers/steppers';
+import { type Count, STABLE_SUBSTEPS, stepperRow } from '../../shared/steppers/steppers';
 import {
   COUNTS,
   isSameMethod,
@@ -67,7 +67,10 @@ function withMethod(setting: Setting, stepper: string, stepS: number, substeps: 
   return {
     setting: { ...withStepper(setting, stepper), stepS, substeps },
     what: `${title} in ${substeps} substeps`,
-    why: `${stepperRow(setting.stepper).title} does not hold this cloth together; ${title} does.`,
+    why:
+      stepper === setting.stepper
+        ? `${title} holds this cloth together in shorter substeps.`
+        : `${stepperRow(setting.stepper).title} does not hold this cloth together; ${title} does.`,
   };
 }
 
@@ -79,8 +82,19 @@ function withStep(setting: Setting, longestS: number): Change | null {
   return { setting: { ...setting, stepS: 1 / perSecond }, what: `steps of 1/${perSecond} s`, why };
 }
 
+/** As many substeps as the stability bound asks for. */
+function withStableSubsteps(setting: Setting): Change {
+  return {
+    setting: { ...setting, substeps: 0 },
+    what: 'as many substeps as are stable',
+    why: 'Its substeps are longer than so stiff a cloth bears.',
+  };
+}
+
 /** A value that the core hints at, by its place in the scene; null where the page cannot set it. */
 function hinted(setting: Setting, pointer: string, value: unknown): Change | null {
+  if (pointer === '/method/substeps' && value === STABLE_SUBSTEPS)
+    return withStableSubsteps(setting);
   if (pointer === '/method/substeps') return withCount(setting, 'substeps', Number(value));
   if (pointer === '/method/iterations') return withCount(setting, 'iterations', Number(value));
   if (pointer === '/method/step_s') return withStep(setting, Number(value));

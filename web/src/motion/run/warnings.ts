@@ -12,6 +12,9 @@ import { cheapest, meanStepMs, type Tried, tryChanges } from './remedy-trial';
 
 const SEEKING = 'Trying what helps…';
 
+/** No change of a setting is held against what a hand did. */
+const PULLED = 'A hand has pulled this cloth: reset it to see what the run does by itself.';
+
 /** Warnings of one vertex; others are of the cloth as a whole. */
 const PLACED: readonly RunWarning['kind'][] = ['stretch', 'soft', 'speed'];
 
@@ -38,8 +41,9 @@ function offer({ change, stepMs }: Tried, cost: { ms: number; stepS: number }): 
 /** A change that has held as far as it was seen, which was not far enough to know. */
 function guess({ change, seenS }: Tried): Answer {
   const { setting, what } = change;
-  const seen = seenS > 0 ? `was sound for ${digits(seenS, 2)} s` : 'was not tried';
-  const title = `Start again with ${what}, which ${seen}`;
+  const seen =
+    seenS > 0 ? `looked right for ${digits(seenS, 2)} s, not tried for longer` : 'not tried';
+  const title = `Start again with ${what}: ${seen}`;
   return {
     help: 'What helps is not known for sure.',
     remedy: { title, setting, startsAnew: true },
@@ -54,7 +58,7 @@ export function answerTo(tried: readonly Tried[], cost: { ms: number; stepS: num
   if (late) return guess(late);
   if (tried.length === 0) return { help: 'Nothing is known that would help.' };
   const names = tried.map(({ change }) => change.what);
-  return { help: `Tried and no help: ${names.join(', ')}.` };
+  return { help: `None of these helped: ${names.join(', ')}.` };
 }
 
 export function tellWarnings(
@@ -77,9 +81,11 @@ export function tellWarnings(
     const { kind } = warning;
     const vertex = PLACED.includes(kind) ? { vertex: warning.vertex } : {};
     const problem: Problem = { source, warning: kind, sentence, ...vertex, help: SEEKING };
-    const { setting, mesh, numbers } = store.get();
-    const end = new AbortController();
+    const { setting, mesh, numbers, astray } = store.get();
     seeking?.end.abort();
+    seeking = null;
+    if (astray === 'pulled') return store.set({ problem: { ...problem, help: PULLED } });
+    const end = new AbortController();
     seeking = { problem, setting, end };
     store.set({ problem });
     const question = { changes: () => changes(warning), mesh, warning };

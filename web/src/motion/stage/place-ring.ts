@@ -13,7 +13,7 @@ export function createPlaceRing(
   parent: HTMLElement,
   project: (vertex: number) => { x: number; y: number },
 ): PlaceRing {
-  const word = element('span', { class: 'place-word' }, 'Worst here');
+  const word = element('span', { class: 'place-word' }, 'First seen here');
   const box = element(
     'div',
     { class: 'place', 'aria-hidden': 'true' },

@@ -6,8 +6,8 @@ const FRAME_S = 1 / 60;
 
 /**
  * A thread of n cells is left too long, in s substeps of i sweeps, by a share of n² / (s² i): weight moves it by 1/s²
- * a substep, and a sweep carries a pull by one cell. Sheets of 16 to 128 cells hold together from this s √i / n on,
- * in all scenes of the page; coarser levels carry a pull farther.
+ * a substep, and a sweep carries a pull by one cell. Sheets of 16 to 64 cells (levels 0 to 3) hold together from this
+ * s √i / n on, but for two scenes of the page that take more; coarser levels carry a pull farther.
  */
 const SWEPT = 1.25;
 const WITH_LEVELS = 0.25;

@@ -177,7 +177,7 @@ export function levelsOf(preset: PresetId): readonly number[] {
 export function levelNeed({ preset, stepper }: Setting, level: number): string | null {
   // No number of substeps up to 64 holds it.
   return preset === 'curtain' && stepper === 'hpbd' && level === 0
-    ? 'Nine hooks on nine vertices leave no coarser level to this method.'
+    ? 'Too coarse for this method.'
     : null;
 }
 

@@ -39,7 +39,7 @@ export function tangleSentence(state: RefinementState): string | null {
   }));
   if (counts.every(({ n }) => n === 0)) return null;
   const list = counts.map(({ id, n }) => `${nameOf(id)} ${n}`).join(', ');
-  return `Cloth passes through itself here (edges: ${list}): nothing guards against that yet, so this moment says nothing about meshes.`;
+  return `Cloth passes through itself here (edges that cross: ${list}): nothing guards against that yet, so this moment says nothing about meshes.`;
 }
 
 /** Empty while nothing is known. */
@@ -47,10 +47,12 @@ export function answerSentence(state: RefinementState): string {
   const { panes, garment, rival } = state;
   const [ours, theirs] = [panes.planned.distanceM, panes[rival].distanceM];
   if (ours === null || theirs === null) return '';
+  // While it is computed nobody counts whether cloth passes through itself.
+  if (state.playing && panes.planned.source === 'computed') return '';
   const tangle = tangleSentence(state);
   if (tangle !== null) return tangle;
   const [near, far] = [smallLength(ours), smallLength(theirs)];
-  if (ours > MUCH_NEARER * theirs && !showsFineCloth(state))
+  if (ours > MUCH_NEARER * theirs && state.timeS > 0 && !showsFineCloth(state))
     return `Once they move, meshes go ways of their own: the multi-resolution one is ${near} off the fine one, the ${nameOf(rival)} one ${far}.`;
   const { title, verb, one } = NAMES[garment];
   return `The multi-resolution ${title} ${verb} ${near} off the fine ${one} ${costWords(state)}; the ${nameOf(rival)} ${one} ${verb} ${far} off.`;

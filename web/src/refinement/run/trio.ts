@@ -138,6 +138,7 @@ export class Trio {
     let shownS: number | null = null;
     while (this.soughtS !== shownS) {
       await this.idle();
+      if (!canSeek(this.store.get())) break; // something else is loaded meanwhile
       const timeS: number = this.soughtS ?? 0;
       if (await this.alone((isCurrent) => this.panes.seek(timeS, isCurrent))) shownS = timeS;
     }
@@ -240,6 +241,7 @@ export class Trio {
   /** A worker has ended: others take the places of all, once. */
   private breakDown(reason: string): void {
     const hasStarted = this.panes.hasStarted() || this.isBuilt;
+    if (hasStarted) this.restarts.noteStart();
     const mayStart = this.restarts.noteEnd() <= 1;
     const state = this.store.get();
     const { timeS, startS } = state;

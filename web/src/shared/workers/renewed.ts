@@ -13,6 +13,7 @@ export class Renewed<Question extends Message, Answers extends AnswersTo<Questio
 {
   private client: Asked<Question, Answers>;
   private hasAnswered = false;
+  private hasEverAnswered = false; // one of the workers so far
   private isSuccessor = false; // it has not done its work yet
 
   constructor(
@@ -30,6 +31,7 @@ export class Renewed<Question extends Message, Answers extends AnswersTo<Questio
     const answer = client.ask(question, transfer);
     const note = () => {
       this.hasAnswered ||= client === this.client;
+      this.hasEverAnswered ||= this.hasAnswered;
     };
     answer.then(note, () => undefined);
     return answer;
@@ -60,7 +62,7 @@ export class Renewed<Question extends Message, Answers extends AnswersTo<Questio
   }
 
   private end(reason: string): void {
-    const hasWorked = this.hasAnswered || this.isSuccessor;
+    const hasWorked = this.hasEverAnswered || this.isSuccessor;
     if (!this.hasAnswered || this.isSuccessor) return this.events.lost(reason, hasWorked);
     this.isSuccessor = true;
     this.client = this.launch();

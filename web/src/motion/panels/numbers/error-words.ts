@@ -28,7 +28,7 @@ const EXACT_RESIDUAL = 1e-8;
 /** Words on a cloth that has not the mesh of its reference, from when on their folds differ by chance. */
 function fromOtherMesh({ preset }: Pick<Setting, 'preset'>): ErrorWords {
   const { level } = presetSetting(preset);
-  const sentence = `Folds fall otherwise on every mesh, and the reference has that of level ${level}: choose it to compare.`;
+  const sentence = `Folds differ from mesh to mesh. Choose level ${level} to compare.`;
   return { value: '–', detail: `known at level ${level}`, sentence };
 }
 
