@@ -288,7 +288,8 @@ for (const size of [0.01, 100]) {
       await choice(page, 'Held by').selectOption({ label: 'Nothing' });
       await isReady(page);
       await button(page, 'Play').click();
-      await until(page, (state) => state.numbers.time_s > 0.2);
+      // A centimetre of cloth is on its floor within a step, where it crumples, and is told of.
+      await until(page, (state) => state.numbers.time_s > 0.04);
       const move = largestMove(before, await positionsOf(page));
       expectThat(move > 0.001 * size, `it moved ${move} m`);
     }),

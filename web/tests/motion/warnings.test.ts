@@ -54,7 +54,7 @@ describe('a warning', () => {
     store.set({ numbers: exploded });
     await vi.waitUntil(() => problem()?.help !== 'Trying what helps…', PATIENCE_MS);
     expect(problem()?.help).toBe(
-      'Tried and no help: 30 substeps, 4 substeps, 16 substeps, Implicit in 4 substeps.',
+      'None of these helped: 30 substeps, 4 substeps, 16 substeps, Implicit in 4 substeps.',
     );
     expect(problem()?.remedy).toBeUndefined();
   });
@@ -124,12 +124,12 @@ describe('what was tried until time was over', () => {
     expect(answerTo([failed, late], cost)).toEqual({
       help: 'What helps is not known for sure.',
       remedy: {
-        title: 'Start again with 16 substeps, which was sound for 0.62 s',
+        title: 'Start again with 16 substeps: looked right for 0.62 s, not tried for longer',
         setting,
         startsAnew: true,
       },
     });
-    expect(answerTo([{ ...late, seenS: 0 }], cost).remedy?.title).toMatch(/which was not tried$/);
+    expect(answerTo([{ ...late, seenS: 0 }], cost).remedy?.title).toMatch(/: not tried$/);
     expect(answerTo([], cost)).toEqual({ help: 'Nothing is known that would help.' });
   });
 });

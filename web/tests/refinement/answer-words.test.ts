@@ -47,7 +47,9 @@ describe('the answer of the picture', () => {
   });
 
   it('claims nothing where the planned mesh is not much nearer', () => {
-    const astray = withPanes({ planned: { ...planned, distanceM: 0.0048 } });
+    const still = withPanes({ planned: { ...planned, distanceM: 0.0048 } });
+    expect(answerSentence(still)).not.toContain('Once they move');
+    const astray = { ...still, timeS: 1 };
     expect(answerSentence(astray)).toMatch(
       /^Once they move, .* 4\.8 mm off the fine one, the coarse one 4\.9 mm\.$/,
     );

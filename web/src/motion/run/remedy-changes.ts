@@ -82,7 +82,7 @@ function withStep(setting: Setting, longestS: number): Change | null {
   return { setting: { ...setting, stepS: 1 / perSecond }, what: `steps of 1/${perSecond} s`, why };
 }
 
-/** As many substeps as the stability bound asks for. */
+/** Takes as many substeps as the stability bound asks for. */
 function withStableSubsteps(setting: Setting): Change {
   return {
     setting: { ...setting, substeps: 0 },
