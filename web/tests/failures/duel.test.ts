@@ -152,6 +152,16 @@ describe('a duel', () => {
     await until(({ timeS: now }) => now > 0);
   });
 
+  it('begins anew when both workers end at once', async () => {
+    const { until, ends } = createDuel(await loadFirst(), 'fast_groove');
+    await until(({ phase }) => phase === 'ready');
+    ends[0]?.();
+    ends[1]?.();
+    const { problem } = await until(({ phase }) => phase !== 'loading');
+    expect(problem?.what).toMatch(/both cloths are back at their start/);
+    expect(ends).toHaveLength(4);
+  });
+
   it('tries again when it is asked to, after a worker and its successor have ended', async () => {
     const module = await loadFirst();
     const { duel, until, ends } = createDuel(module, 'fast_groove');

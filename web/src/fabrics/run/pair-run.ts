@@ -2,10 +2,20 @@
 import type { Triple } from '../../shared/bindings/geometry';
 import type { Store } from '../../shared/state/store';
 import { placeOf } from '../../shared/state/vectors';
-import { InStep, type InStepParts, type InStepView } from '../../shared/workers/in-step';
+import {
+  InStep,
+  type InStepParts,
+  type InStepView,
+  type Piece,
+} from '../../shared/workers/in-step';
 import { PAIR_STEP_S, type PairState, sceneTextOf } from '../state/pair';
 
 const PANES = [0, 1] as const;
+
+const WORDS = {
+  again: 'It was started again, and the cloth is back at its start.',
+  twice: 'That happened twice: reset to try once more, or choose something else.',
+};
 
 export interface PairView extends InStepView {
   /** All stand at their start; `isNew`: other cloth, to be framed anew. */
@@ -33,14 +43,16 @@ export class PairRun {
     private readonly view: PairView,
     parts?: InStepParts,
   ) {
-    const piece = {
+    const piece: Piece = {
       sceneTexts: () => {
         const { scene, pair } = store.get();
         return pair.map((fabric) => sceneTextOf(scene, fabric));
       },
       stepS: PAIR_STEP_S,
       endS: () => Number.POSITIVE_INFINITY,
-      begun: (_: unknown, isNew: boolean) => {
+      words: WORDS,
+      lostPhase: 'stopped',
+      begun: (_, isNew) => {
         this.taken = null;
         this.measure();
         view.begin(isNew);

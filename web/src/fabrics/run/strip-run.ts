@@ -2,12 +2,11 @@
 import { type Failure, inputFailure } from '../../shared/bindings/answers';
 import { frameViews } from '../../shared/bindings/frame';
 import { brokenFailure, failureOf } from '../../shared/bindings/refusals';
-import { fabricsText } from '../../shared/fabric/fabric-data';
 import { createClock } from '../../shared/state/clock';
 import type { Store } from '../../shared/state/store';
 import { BrokenWorker } from '../../shared/workers/asked';
 import { type StartMotion, startMotionWorker } from '../../shared/workers/motion-client';
-import { endedSentence, Restarts } from '../../shared/workers/restarts';
+import { endedSentence } from '../../shared/workers/restarts';
 import { SideRun, type SideStart } from '../../shared/workers/side-run';
 import { droopOf, namesByBendingLength, stripTextOf, tipOf } from '../state/strips';
 import type { StripsState } from '../state/strips-state';
@@ -32,16 +31,17 @@ export interface StripView {
 }
 
 export class StripRun {
-  private side: SideRun | null = null;
-  private readonly restarts = new Restarts();
+  private readonly side: SideRun;
   private readonly clock = createClock();
   private nGone = 0; // how often work was given up
 
   constructor(
     private readonly store: Store<StripsState>,
     private readonly view: StripView,
-    private readonly start: StartMotion = startMotionWorker,
-  ) {}
+    start: StartMotion = startMotionWorker,
+  ) {
+    this.side = new SideRun(start, (reason, nInARow) => this.breakDown(reason, nInARow));
+  }
 
   /** Lets those down that have not come to rest yet. */
   go(): void {
@@ -59,20 +59,17 @@ export class StripRun {
 
   private end(): void {
     this.nGone += 1;
-    this.side?.close();
-    this.side = null;
+    this.side.close();
   }
 
   private async letAllDown(): Promise<void> {
     const { nGone } = this;
-    const side = new SideRun(this.start({ broken: (why) => this.breakDown(why) }), fabricsText);
-    this.side = side;
     try {
       for (const fabric of namesByBendingLength()) {
         if (this.store.get().droops[fabric] !== undefined) continue;
-        const droop = await this.letDown(side, fabric);
+        const droop = await this.letDown(fabric);
         if (nGone !== this.nGone) return;
-        this.restarts.noteWork();
+        this.side.noteWork();
         this.store.set({ droops: { ...this.store.get().droops, [fabric]: droop } });
       }
       this.end(); // its memory is of no use any more
@@ -84,10 +81,9 @@ export class StripRun {
   }
 
   /** Degrees by which the strip droops at rest. */
-  private async letDown(side: SideRun, fabric: string): Promise<number> {
-    const { nGone } = this;
+  private async letDown(fabric: string): Promise<number> {
+    const { nGone, side } = this;
     const started = await side.load(stripTextOf(fabric));
-    this.restarts.noteStart();
     if (nGone !== this.nGone) return Number.NaN;
     this.view.showStrip(fabric, started);
     let shown = started.buffer;
@@ -116,17 +112,16 @@ export class StripRun {
   }
 
   /** The worker is gone: another one goes on with the strips that are left, once. */
-  private breakDown(reason: string): void {
-    const nEnds = this.restarts.noteEnd();
+  private breakDown(reason: string, nInARow: number): void {
     this.end();
-    if (nEnds === 0)
+    if (nInARow === 0)
       return this.store.set({ phase: 'broken', problem: brokenFailure('The strips', reason) });
     const after =
-      nEnds === 1
+      nInARow === 1
         ? 'It was started again, with the strips that are left.'
         : 'That happened twice: go on to try once more.';
     const problem = inputFailure(`${endedSentence(reason)} ${after}`);
     this.store.set({ phase: 'stopped', problem });
-    if (nEnds === 1) this.go();
+    if (nInARow === 1) this.go();
   }
 }

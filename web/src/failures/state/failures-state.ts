@@ -1,7 +1,7 @@
 // State of the view of failures.
-import type { Failure } from '../../shared/bindings/answers';
 import { inputFailure } from '../../shared/bindings/answers';
 import type { RunWarning } from '../../shared/bindings/run-warning';
+import type { InStepState } from '../../shared/workers/in-step';
 import { CASES, SIDES, type Side } from './failure-cases';
 
 export interface SideState {
@@ -16,16 +16,11 @@ export interface SideState {
   msPerStep: number | null;
 }
 
-export interface FailuresState {
+export interface FailuresState extends InStepState {
   caseId: string;
-  phase: 'loading' | 'ready' | 'broken';
-  playing: boolean;
-  speed: number;
-  timeS: number;
   sides: Record<Side, SideState>;
   /** The meshes are drawn. */
   edges: boolean;
-  problem: Failure | null;
 }
 
 const FRESH: SideState = {

@@ -1,15 +1,14 @@
-// Plays several cloths in step: a worker for each, one clock for all. A worker that ends is replaced, and
-// all begin anew.
+// Plays several cloths in step: a worker for each, one clock for all. A worker that ends has a successor, and
+// all cloths begin anew.
 import { type Failure, inputFailure } from '../bindings/answers';
 import { brokenFailure, failureOf } from '../bindings/refusals';
-import { fabricsText } from '../fabric/fabric-data';
 import { affordable, type Clock, createClock, DISPLAY, type Display } from '../state/clock';
 import { Latest } from '../state/latest';
 import type { Store } from '../state/store';
 import { BrokenWorker } from './asked';
 import { type StartMotion, startMotionWorker } from './motion-client';
 import type { FrameMessage } from './motion-protocol';
-import { endedSentence, Restarts } from './restarts';
+import { endedSentence } from './restarts';
 import { SideRun, type SideStart } from './side-run';
 
 /** The part of a view's state that a play in step reads and sets. */
@@ -34,7 +33,12 @@ export interface Piece {
   /** A scene for each cloth, of one length of step. */
   sceneTexts(): readonly string[];
   stepS: number;
+  /** Infinite where the play has no end. */
   endS(): number;
+  /** Sentences that follow the one that a worker ended: it has a successor, or that ended as well. */
+  words: { again: string; twice: string };
+  /** The phase once a worker and its successor have ended. */
+  lostPhase: 'stopped' | 'broken';
   /** All cloths are at their start and shown; `isNew`: they are others than before. */
   begun(starts: readonly SideStart[], isNew: boolean): void;
   /** All have made steps, and are shown; null for a cloth whose run had ended. Times of a step [ms]. */
@@ -51,8 +55,7 @@ const BROWSER: InStepParts = { ...DISPLAY, start: startMotionWorker };
 export class InStep {
   private readonly clock: Clock;
   private readonly latest = new Latest(); // load or reset
-  private readonly restarts = new Restarts();
-  private sides: readonly SideRun[];
+  private readonly sides: readonly SideRun[];
   private areLoaded = false;
   private work: Promise<unknown> = Promise.resolve();
   private isStepping = false;
@@ -66,10 +69,11 @@ export class InStep {
     private readonly parts: InStepParts = BROWSER,
   ) {
     this.clock = createClock(parts);
-    this.sides = this.startSides();
+    const ended = (reason: string, nInARow: number) => this.breakDown(reason, nInARow);
+    this.sides = piece.sceneTexts().map(() => new SideRun(parts.start, ended));
   }
 
-  /** Begins what is to be played now. */
+  /** Begins what is to be played now, by other workers where there are none. */
   open(): void {
     void this.load();
   }
@@ -99,25 +103,30 @@ export class InStep {
     return this.begin((side) => side.reset(), false);
   }
 
+  /** Shows what is being opened at a time, and not the way there [s]. */
+  async showAt(timeS: number): Promise<void> {
+    await this.work;
+    if (this.store.get().phase !== 'ready' || this.nSteps > 0 || this.isStepping) return;
+    await this.advance(Math.round(timeS / this.piece.stepS));
+  }
+
   /** The cloth in a pane. */
   side(pane: number): SideRun | undefined {
     return this.sides[pane];
   }
 
-  private startSides(): readonly SideRun[] {
-    const broken = (reason: string) => this.breakDown(reason);
-    return this.piece
-      .sceneTexts()
-      .map(() => new SideRun(this.parts.start({ broken }), fabricsText));
-  }
-
   private load(): Promise<void> {
     const texts = this.piece.sceneTexts();
+    for (const side of this.sides) side.open();
     return this.begin((side, pane) => side.load(texts[pane] ?? ''), true);
   }
 
+  private stepsLeft(): number {
+    return Math.round(this.piece.endS() / this.piece.stepS) - this.nSteps;
+  }
+
   private isAtEnd(): boolean {
-    return this.nSteps >= Math.round(this.piece.endS() / this.piece.stepS);
+    return this.stepsLeft() <= 0;
   }
 
   /** One thing after the other: a step under way ends before cloth begins anew. */
@@ -145,7 +154,6 @@ export class InStep {
       this.view.showMesh(pane, start);
       this.view.showFrame(pane, start.buffer);
     });
-    this.restarts.noteStart();
     this.areLoaded = true;
     this.nSteps = 0;
     this.msPerStep = null;
@@ -163,8 +171,7 @@ export class InStep {
   }
 
   private advance(wish: number): Promise<void> {
-    const end = Math.round(this.piece.endS() / this.piece.stepS);
-    const count = Math.min(wish, end - this.nSteps);
+    const count = Math.min(wish, this.stepsLeft());
     this.isStepping = true;
     const done = this.stepAll(count).then(
       () => undefined,
@@ -179,12 +186,11 @@ export class InStep {
 
   private async stepAll(count: number): Promise<void> {
     const isCurrent = this.latest.mark();
-    const { sides } = this;
     const begunMs = this.parts.nowMs();
     const sinceMs = () => (this.parts.nowMs() - begunMs) / count;
     const msPerStep: number[] = [];
     const frames = await Promise.all(
-      sides.map(async (side, pane) => {
+      this.sides.map(async (side, pane) => {
         const frame = await side.step(count);
         msPerStep[pane] = sinceMs();
         return frame;
@@ -194,36 +200,33 @@ export class InStep {
     if (!isCurrent()) return; // a run that begins anew has buffers of its own
     frames.forEach((frame, pane) => {
       const before = frame && this.view.showFrame(pane, frame.buffer);
-      if (before) sides[pane]?.giveBack(before);
+      if (before) this.sides[pane]?.giveBack(before);
     });
-    this.restarts.noteWork();
+    for (const side of this.sides) side.noteWork();
     this.nSteps += count;
     this.piece.stepped(frames, msPerStep);
     this.store.set({ timeS: this.nSteps * this.piece.stepS });
   }
 
   private giveUp(error: unknown): void {
-    if (error instanceof BrokenWorker) return; // its listener hears
+    if (error instanceof BrokenWorker) return; // its side hears
     this.store.set({ playing: false, problem: failureOf(error) });
   }
 
-  /** A worker is gone: new ones take the place of all, and begin at once unless that happened before. */
-  private breakDown(reason: string): void {
-    const nEnds = this.restarts.noteEnd();
-    if (nEnds === 0) {
-      const problem = brokenFailure('The cloth', reason);
-      return this.store.set({ phase: 'broken', playing: false, problem });
-    }
-    for (const side of this.sides) side.close();
-    this.sides = this.startSides();
+  /** A worker is gone: all cloths begin anew with another one at once, unless that happened before. */
+  private breakDown(reason: string, nInARow: number): void {
+    const { words, lostPhase } = this.piece;
+    const sentence = endedSentence(reason);
     this.areLoaded = false;
     this.latest.start();
-    const after =
-      nEnds === 1
-        ? 'It was started again, and the cloth is back at its start.'
-        : 'That happened twice: reset to try once more, or choose something else.';
-    const problem = inputFailure(`${endedSentence(reason)} ${after}`);
-    this.store.set({ phase: 'stopped', playing: false, problem });
-    if (nEnds === 1) this.open();
+    if (nInARow === 1) {
+      this.store.set({ problem: inputFailure(`${sentence} ${words.again}`) });
+      return this.open();
+    }
+    const lost =
+      nInARow === 0
+        ? { phase: 'broken' as const, problem: brokenFailure('The cloth', reason) }
+        : { phase: lostPhase, problem: inputFailure(`${sentence} ${words.twice}`) };
+    this.store.set({ ...lost, playing: false });
   }
 }

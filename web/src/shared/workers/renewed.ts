@@ -1,4 +1,5 @@
-// A worker that has a successor when it ends by itself: one at a time, until the work is done.
+// A worker that has a successor when it ends by itself: one at a time, until the work is done. It starts its
+// successor unasked, and several parts of a view ask it as one worker. Restarts is for all others.
 import type { AnswersTo, Asked, Listener, Message } from './asked';
 
 export interface RenewedEvents {

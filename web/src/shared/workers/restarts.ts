@@ -1,4 +1,5 @@
-// Ends of a worker by itself: whether another one is to take its place, and the words for it.
+// Ends of a worker by itself: whether another one is to take its place, and the words for it. It counts for
+// owners that start that one themselves, when it suits them; Renewed starts it unasked.
 import { quoted } from '../bindings/answers';
 
 /** Counts how often in a row a worker has ended before it did its work. */

@@ -1,7 +1,10 @@
-// One cloth of several in motion: its worker, and the buffer in which its frames travel.
+// One cloth of several in motion: its worker, which has a successor once it has ended, and the buffer in which
+// its frames travel.
 import type { Collider, Triple } from '../bindings/geometry';
-import type { MotionClient } from './motion-client';
+import { fabricsText } from '../fabric/fabric-data';
+import type { MotionClient, StartMotion } from './motion-client';
 import type { FrameMessage, LoadedMessage } from './motion-protocol';
+import { Restarts } from './restarts';
 
 export interface SideStart {
   triangles: Uint32Array;
@@ -13,23 +16,36 @@ export interface SideStart {
 }
 
 export class SideRun {
+  private client: MotionClient | null = null;
+  private readonly restarts = new Restarts();
   private spare: ArrayBuffer | null = null; // the buffer that is not shown
   private hasEnded = false;
 
+  /** `ended` hears that the worker ended by itself, and how often in a row, as Restarts counts. */
   constructor(
-    private readonly client: MotionClient,
-    fabricsText: string,
-  ) {
-    client.tell({ type: 'open', fabricsText });
+    private readonly launch: StartMotion,
+    private readonly ended: (reason: string, nInARow: number) => void,
+  ) {}
+
+  /** Starts a worker where there is none. */
+  open(): MotionClient {
+    if (this.client) return this.client;
+    const broken = (reason: string) => {
+      this.close();
+      this.ended(reason, this.restarts.noteEnd());
+    };
+    this.client = this.launch({ broken });
+    this.client.tell({ type: 'open', fabricsText });
+    return this.client;
   }
 
   async load(sceneText: string): Promise<SideStart> {
     const question = { type: 'load', sceneText, keepMotion: false } as const;
-    return this.start(await this.client.ask(question));
+    return this.start(await this.open().ask(question));
   }
 
   async reset(): Promise<SideStart> {
-    return this.start(await this.client.ask({ type: 'reset' }));
+    return this.start(await this.open().ask({ type: 'reset' }));
   }
 
   /** The frame after so many steps; null once the run has ended. */
@@ -37,9 +53,8 @@ export class SideRun {
     const buffer = this.spare;
     if (this.hasEnded || !buffer) return null;
     this.spare = null;
-    const answer = await this.client.ask({ type: 'step', count, wantsNumbers: true, buffer }, [
-      buffer,
-    ]);
+    const question = { type: 'step', count, wantsNumbers: true, buffer } as const;
+    const answer = await this.open().ask(question, [buffer]);
     if (answer.type !== 'frame') return null;
     this.hasEnded = answer.hasEnded;
     return answer;
@@ -47,20 +62,22 @@ export class SideRun {
 
   /** Takes hold of a vertex. */
   grab(vertex: number): void {
-    this.client.tell({ type: 'grab', vertex });
+    this.client?.tell({ type: 'grab', vertex });
   }
 
   moveGrab(target: Triple): void {
-    this.client.tell({ type: 'moveGrab', target });
+    this.client?.tell({ type: 'moveGrab', target });
   }
 
   releaseGrab(): void {
-    this.client.tell({ type: 'releaseGrab' });
+    this.client?.tell({ type: 'releaseGrab' });
   }
 
   /** Ends its worker, whatever it is doing. */
   close(): void {
-    this.client.terminate();
+    this.client?.terminate();
+    this.client = null;
+    this.spare = null;
   }
 
   /** Takes back a buffer whose frame is not shown any more. */
@@ -68,15 +85,21 @@ export class SideRun {
     this.spare = buffer;
   }
 
+  /** Notes that the worker did what it was there for: its next end is the first one again. */
+  noteWork(): void {
+    this.restarts.noteWork();
+  }
+
   private async start(loaded: LoadedMessage): Promise<SideStart> {
     const { triangles, buffers, colliders, summary } = loaded;
     const [buffer, spare] = buffers;
     this.spare = spare;
     this.hasEnded = false;
+    this.restarts.noteStart();
     const springEnds =
       triangles.length > 0
         ? new Uint32Array(0)
-        : (await this.client.ask({ type: 'readSprings' })).ends;
+        : (await this.open().ask({ type: 'readSprings' })).ends;
     return { triangles, springEnds, buffer, colliders, nVertices: summary.n_vertices };
   }
 }
