@@ -1,5 +1,7 @@
 // Plays one scene in two fabrics, in step, with one hand on both.
+import { inputFailure } from '../../shared/bindings/answers';
 import type { Triple } from '../../shared/bindings/geometry';
+import { warningSentence } from '../../shared/panels/warning-words';
 import type { Store } from '../../shared/state/store';
 import { placeOf } from '../../shared/state/vectors';
 import {
@@ -8,6 +10,7 @@ import {
   type InStepView,
   type Piece,
 } from '../../shared/workers/in-step';
+import type { FrameMessage } from '../../shared/workers/motion-protocol';
 import { PAIR_STEP_S, type PairState, sceneTextOf } from '../state/pair';
 
 const PANES = [0, 1] as const;
@@ -57,11 +60,16 @@ export class PairRun {
         this.measure();
         view.begin(isNew);
       },
-      stepped: () => this.measure(),
+      stepped: (frames) => {
+        this.measure();
+        this.tell(frames);
+      },
     };
     this.both = new InStep(store, view, piece, parts);
     store.subscribe((state, previous) => {
-      if (state.pair !== previous.pair || state.scene !== previous.scene) this.both.open();
+      if (state.pair === previous.pair && state.scene === previous.scene) return;
+      store.set({ problem: null });
+      this.both.open();
     });
     this.both.open();
   }
@@ -81,6 +89,7 @@ export class PairRun {
   }
 
   reset(): Promise<void> {
+    this.store.set({ problem: null });
     return this.both.reset();
   }
 
@@ -106,6 +115,19 @@ export class PairRun {
   releaseGrab(): void {
     this.taken = null;
     for (const one of PANES) this.both.side(one)?.releaseGrab();
+  }
+
+  /** Says that a run has ended or shows nonsense, and waits for a reset. */
+  private tell(frames: readonly (FrameMessage | null)[]): void {
+    const { pair } = this.store.get();
+    frames.forEach((frame, pane) => {
+      const { message = '', numbers } = frame?.report ?? {};
+      const worst = numbers?.warnings.find(({ is_nonsense }) => is_nonsense);
+      if (!frame?.hasEnded && !worst) return;
+      const what = worst ? warningSentence(worst) : `Its run has ended: ${message}`;
+      this.pause();
+      this.store.set({ phase: 'stopped', problem: inputFailure(`${pair[pane]}: ${what}`) });
+    });
   }
 
   private measure(): void {

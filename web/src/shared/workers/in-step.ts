@@ -37,7 +37,7 @@ export interface Piece {
   endS(): number;
   /** Sentences that follow the one that a worker ended: it has a successor, or that ended as well. */
   words: { again: string; twice: string };
-  /** The phase once a worker and its successor have ended. */
+  /** The phase once a worker and its successor have ended, and after a refusal. */
   lostPhase: 'stopped' | 'broken';
   /** All cloths are at their start and shown; `isNew`: they are others than before. */
   begun(starts: readonly SideStart[], isNew: boolean): void;
@@ -210,7 +210,9 @@ export class InStep {
 
   private giveUp(error: unknown): void {
     if (error instanceof BrokenWorker) return; // its side hears
-    this.store.set({ playing: false, problem: failureOf(error) });
+    this.areLoaded = false;
+    const { lostPhase: phase } = this.piece;
+    this.store.set({ phase, playing: false, problem: failureOf(error) });
   }
 
   /** A worker is gone: all cloths begin anew with another one at once, unless that happened before. */
