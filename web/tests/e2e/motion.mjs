@@ -399,7 +399,10 @@ async function checkRefused({ check, open }) {
       await isReady(page);
       const coarsest = page.locator('.levels label').nth(0);
       expectThat(await coarsest.locator('input').isDisabled(), 'level 0 is offered');
-      expectThat(/Nine hooks/.test(await coarsest.getAttribute('title')), 'no reason');
+      expectThat(
+        /Too coarse for this method/.test(await coarsest.getAttribute('title')),
+        'no reason',
+      );
       await close();
     },
   );
