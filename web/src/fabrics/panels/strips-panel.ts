@@ -23,7 +23,7 @@ const CENTIMETRES = (100 * OVERHANG_M).toFixed(0);
 const CAPTION = `Each strip reaches ${CENTIMETRES} cm over an edge and droops by its own weight. The stiffer and the lighter the cloth, the longer its bending length, and the less it droops.`;
 
 const HOW =
-  'Computed here, by the simulation of cloth in motion, until each strip rests. Numbers with ~ may be off by a factor of 2: neighbours may be in another order.';
+  'Computed here, by the simulation of cloth in motion, until each strip rests. Numbers with ~ come of rigidities that may be off by a factor of 2, lengths by a quarter: neighbours may be in another order.';
 
 /** The one number that the picture is about, once it is known. */
 export function stripsAnswer(state: Pick<StripsState, 'droops'>): string {

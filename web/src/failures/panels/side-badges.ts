@@ -11,7 +11,7 @@ const MANY = 10;
 
 /** The largest stretch so far: a heap of cloth that has calmed down does not unsay it. */
 function stretchWords(most: number): string {
-  return most > MANY ? 'stretched many times over' : `stretched by ${percent(most)} at most`;
+  return most > MANY ? 'stretched many times over' : `stretched by ${percent(most)} so far`;
 }
 
 const SIDE_TITLES: Record<Side, string> = { naive: 'Naive', ours: 'Ours' };

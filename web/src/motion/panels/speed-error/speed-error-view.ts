@@ -20,7 +20,7 @@ const NONSENSE = 'crossed out: not how cloth moves';
 /** Words on the front: rows of different references have one each. */
 function frontWords({ rows, meshError }: PlotContent): string {
   const isOfLevel = meshError !== 'known' && new Set(rows.map(({ level }) => level)).size > 1;
-  return `front: no other setting${isOfLevel ? ' of its level' : ''} is both faster and nearer`;
+  return `front: no other filled mark${isOfLevel ? ' of its level' : ''} is both faster and nearer`;
 }
 
 /** The marks of the steppers that have a row, and what else is drawn. */
