@@ -66,12 +66,12 @@ std::vector<SettingHint> hints_of_settings(Kind kind, const MethodOptions& metho
 }
 
 /// More of what the stepper takes more of, and where that is of sweeps or rounds, a stepper that
-/// solves for equilibrium; the cheaper one first. Nothing helps what is stable already.
+/// solves for equilibrium; the cheaper one first.
 std::vector<SettingHint> hints_of_counts(double excess, const MethodOptions& method) {
   const StepperType& type = *method.stepper;
   const bool takes_rounds = type.reads("iterations");
   const int times = times_for(excess, takes_rounds);
-  if (method.substeps == kStableSubsteps) return {};
+  if (method.substeps == kStableSubsteps) return {{"/method/step_s", method.step / times}};
   if (type.has_stability_bound) return {{"/method/substeps", "stable"}};
   MethodOptions more = method;
   SettingHint hint;
