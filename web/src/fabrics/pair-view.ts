@@ -18,8 +18,8 @@ import { linkFailure } from './state/fabrics-state';
 import {
   decodePairLink,
   encodePairLink,
+  initialPairState,
   PAIR_SCENES,
-  type PairLink,
   type PairState,
 } from './state/pair';
 import type { Way } from './way';
@@ -30,19 +30,6 @@ const UPRIGHT: Direction = { azimuth: 0.4, polar: 1.34 };
 export interface PairWay extends Way {
   /** Shows a fabric in the first pane. */
   wear(fabric: string): void;
-}
-
-function initialState(link: PairLink, problems: readonly string[]): PairState {
-  return {
-    ...link,
-    phase: 'loading',
-    playing: false,
-    speed: 1,
-    timeS: 0,
-    apartM: 0,
-    invited: true,
-    problem: linkFailure(problems, null),
-  };
 }
 
 /** The stage, where the browser can draw it; its buffers go back to the runs. */
@@ -129,7 +116,7 @@ class PairPicture implements PairView {
 /** `left` takes its messages, stage and tools. */
 export function createPairView(left: HTMLElement, panel: HTMLElement, hash: string): PairWay {
   const first = decodePairLink(hash);
-  const store = createStore(initialState(first.link, first.problems));
+  const store = createStore(initialPairState(first.link, linkFailure(first.problems, null)));
   let isShown = false;
   const messages = element('div');
   const stageBox = element('section', { class: 'stage', 'aria-label': 'Both cloths' });

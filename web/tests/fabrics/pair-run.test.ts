@@ -2,7 +2,7 @@
 import { describe, expect, it } from 'vitest';
 import { apartWords } from '../../src/fabrics/panels/pair-panel';
 import { farthestApart, PairRun, type PairView } from '../../src/fabrics/run/pair-run';
-import type { PairLink, PairState } from '../../src/fabrics/state/pair';
+import { initialPairState, type PairLink, type PairState } from '../../src/fabrics/state/pair';
 import { frameViews } from '../../src/shared/bindings/frame';
 import type { PleatModule } from '../../src/shared/bindings/pleat-module';
 import { createStore } from '../../src/shared/state/store';
@@ -13,16 +13,7 @@ import { loadFirst } from '../support/built-module';
 import { workerPort } from '../support/worker-port';
 
 function createPair(module: PleatModule, link: PairLink) {
-  const store = createStore<PairState>({
-    ...link,
-    phase: 'loading',
-    playing: false,
-    speed: 1,
-    timeS: 0,
-    apartM: 0,
-    invited: true,
-    problem: null,
-  });
+  const store = createStore(initialPairState(link, null));
   const shown: (ArrayBuffer | null)[] = [null, null];
   const view: PairView = {
     showMesh: (pane) => {

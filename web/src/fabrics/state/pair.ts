@@ -62,6 +62,19 @@ export interface PairState extends InStepState, PairLink {
   invited: boolean;
 }
 
+export function initialPairState(link: PairLink, problem: PairState['problem']): PairState {
+  return {
+    ...link,
+    phase: 'loading',
+    playing: false,
+    speed: 1,
+    timeS: 0,
+    apartM: 0,
+    invited: true,
+    problem,
+  };
+}
+
 /** Fabrics that differ at a glance in each scene. */
 const FIRST: PairLink = { scene: 'swags', pair: ['silk', 'canvas'] };
 

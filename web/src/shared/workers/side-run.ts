@@ -8,8 +8,6 @@ import { Restarts } from './restarts';
 
 export interface SideStart {
   triangles: Uint32Array;
-  /** Two vertices a spring, of cloth that is no surface; else empty. */
-  springEnds: Uint32Array;
   buffer: ArrayBuffer;
   nVertices: number;
   colliders: Collider[];
@@ -90,16 +88,12 @@ export class SideRun {
     this.restarts.noteWork();
   }
 
-  private async start(loaded: LoadedMessage): Promise<SideStart> {
+  private start(loaded: LoadedMessage): SideStart {
     const { triangles, buffers, colliders, summary } = loaded;
     const [buffer, spare] = buffers;
     this.spare = spare;
     this.hasEnded = false;
     this.restarts.noteStart();
-    const springEnds =
-      triangles.length > 0
-        ? new Uint32Array(0)
-        : (await this.open().ask({ type: 'readSprings' })).ends;
-    return { triangles, springEnds, buffer, colliders, nVertices: summary.n_vertices };
+    return { triangles, buffer, colliders, nVertices: summary.n_vertices };
   }
 }
