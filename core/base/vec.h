@@ -29,6 +29,26 @@ inline Eigen::Map<const Eigen::VectorXd> flat(const Positions& columns) {
   return {columns.data(), columns.size()};
 }
 
+// For loops that ask every vertex or edge after every step. A build for size makes calls of Eigen's
+// expressions, and none of these.
+/// |x_i|^2.
+inline double squared_norm(const Positions& x, Eigen::Index i) {
+  const double* const c = x.data() + 3 * i;
+  return c[0] * c[0] + (c[1] * c[1] + c[2] * c[2]);
+}
+/// |x_i - y|^2.
+inline double squared_distance(const Positions& x, Eigen::Index i, const double* y) {
+  const double* const c = x.data() + 3 * i;
+  const double dx = c[0] - y[0];
+  const double dy = c[1] - y[1];
+  const double dz = c[2] - y[2];
+  return dx * dx + (dy * dy + dz * dz);
+}
+/// |x_i - x_j|^2.
+inline double squared_distance(const Positions& x, Eigen::Index i, Eigen::Index j) {
+  return squared_distance(x, i, x.data() + 3 * j);
+}
+
 /// Diagonal of the box around the columns [m]; there must be one.
 inline double box_diagonal(const Positions& x) {
   return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();

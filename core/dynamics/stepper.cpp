@@ -13,8 +13,8 @@ namespace {
 VertexId first_lost(const State& state) {
   constexpr double kFarthest = kLargestCoordinate * kLargestCoordinate;
   for (Eigen::Index i = 0; i < state.positions.cols(); ++i)
-    if (!(state.positions.col(i).squaredNorm() <= kFarthest) ||
-        !(state.velocities.col(i).squaredNorm() <= kFarthest))
+    if (!(squared_norm(state.positions, i) <= kFarthest) ||
+        !(squared_norm(state.velocities, i) <= kFarthest))
       return VertexId(i);
   return VertexId();
 }

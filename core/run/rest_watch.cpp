@@ -33,7 +33,7 @@ double rms_speed(const Simulation& simulation, const Vec3& drift) {
   const Positions& velocities = simulation.state().velocities;
   double sum = 0;
   for (Eigen::Index i = 0; i < velocities.cols(); ++i)
-    sum += masses[i] * (velocities.col(i) - drift).squaredNorm();
+    sum += masses[i] * squared_distance(velocities, i, drift.data());
   return std::sqrt(sum / masses.sum());
 }
 

@@ -80,7 +80,7 @@ double greatest_height(const Vec3& up, const Positions& positions) {
 /// Longer or shorter than at rest by more than this share of it. No root is taken: it is asked of
 /// every edge after every step.
 bool is_strained(const GaugeEdge& edge, const Positions& positions, double share) {
-  const double square = (positions.col(edge.a) - positions.col(edge.b)).squaredNorm();
+  const double square = squared_distance(positions, edge.a.value, edge.b.value);
   const double longest = (1 + share) * edge.rest_length;
   const double shortest = std::max(0.0, 1 - share) * edge.rest_length;
   return square > longest * longest || square < shortest * shortest;
@@ -95,7 +95,7 @@ Fastest fastest_of(const Positions& velocities) {
   Fastest fastest;
   double most = 0;
   for (int i = 0; i < velocities.cols(); ++i) {
-    const double square = velocities.col(i).squaredNorm();
+    const double square = squared_norm(velocities, i);
     if (square <= most) continue;
     most = square;
     fastest.vertex = VertexId(i);
