@@ -2,11 +2,11 @@
 
 #include <cholmod.h>
 
-#include <algorithm>
 #include <new>
 #include <string>
 
 #include "core/base/check.h"
+#include "core/linalg/direct/column_solve.h"
 
 namespace pleat {
 namespace {
@@ -29,24 +29,9 @@ cholmod_sparse view(const SparseMatrix& lower) {
   return A;
 }
 
-cholmod_dense view(const Eigen::Ref<const Eigen::MatrixXd>& columns) {
-  cholmod_dense B{};
-  B.nrow = static_cast<std::size_t>(columns.rows());
-  B.ncol = static_cast<std::size_t>(columns.cols());
-  B.d = static_cast<std::size_t>(std::max(columns.outerStride(), columns.rows()));
-  B.nzmax = B.d * B.ncol;
-  B.x = const_cast<double*>(columns.data());
-  B.xtype = CHOLMOD_REAL;
-  B.dtype = CHOLMOD_DOUBLE;
-  return B;
-}
-
-/// cholmod_solve2 leaves its work array described as narrower than its memory is, and would
-/// allocate it again.
-void restore_width(cholmod_dense* work) {
-  if (work == nullptr) return;
-  work->nrow = work->nzmax / work->ncol;
-  work->d = work->nrow;
+LowerColumns columns_of(const cholmod_factor& L) {
+  return {static_cast<int>(L.n), static_cast<const int*>(L.p), static_cast<const int*>(L.nz),
+          static_cast<const int*>(L.i), static_cast<const double*>(L.x)};
 }
 
 class CholmodSolver final : public LinearSolver {
@@ -66,9 +51,6 @@ class CholmodSolver final : public LinearSolver {
   }
 
   ~CholmodSolver() override {
-    cholmod_free_dense(&X_, &common_);
-    cholmod_free_dense(&Y_, &common_);
-    cholmod_free_dense(&E_, &common_);
     cholmod_free_factor(&factor_, &common_);
     cholmod_finish(&common_);
   }
@@ -93,19 +75,13 @@ class CholmodSolver final : public LinearSolver {
       return {SolveStatus::not_positive_definite, 0, 0,
               "pivot of row " + std::to_string(permutation[factor_->minor]) + " is not positive"};
     }
+    columns_.prepare(columns_of(*factor_));
     return {};
   }
 
   SolveReport do_solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
                        Eigen::Ref<Eigen::MatrixXd> solution) override {
-    cholmod_dense B = view(rhs);
-    restore_width(Y_);
-    const int solved =
-        cholmod_solve2(CHOLMOD_A, factor_, &B, nullptr, &X_, nullptr, &Y_, &E_, &common_);
-    check_memory();
-    PLEAT_CHECK(solved, "CHOLMOD refused to solve");
-    solution = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(X_->x), rhs.rows(),
-                                                 rhs.cols());
+    columns_.solve(columns_of(*factor_), static_cast<const int*>(factor_->Perm), rhs, solution);
     return {};
   }
 
@@ -117,9 +93,7 @@ class CholmodSolver final : public LinearSolver {
 
   cholmod_common common_{};
   cholmod_factor* factor_ = nullptr;
-  cholmod_dense* X_ = nullptr;  // the solution and two work arrays, kept from solve to solve
-  cholmod_dense* Y_ = nullptr;
-  cholmod_dense* E_ = nullptr;
+  ColumnSolve columns_;
 };
 
 }  // namespace
