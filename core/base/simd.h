@@ -67,6 +67,10 @@ Simd<Number, n> operator/(Simd<Number, n> a, Simd<Number, n> b) {
 
 inline Float1 sqrt(Float1 a) { return {std::sqrt(a.value)}; }
 template <class Number>
+Simd<Number, 2> sqrt(Simd<Number, 2> a) {
+  return {typename Simd<Number, 2>::Value{std::sqrt(a.value[0]), std::sqrt(a.value[1])}};
+}
+template <class Number>
 Simd<Number, 4> sqrt(Simd<Number, 4> a) {
   using Four = typename Simd<Number, 4>::Value;
   return {Four{std::sqrt(a.value[0]), std::sqrt(a.value[1]), std::sqrt(a.value[2]),

@@ -29,8 +29,8 @@ inline Eigen::Map<const Eigen::VectorXd> flat(const Positions& columns) {
   return {columns.data(), columns.size()};
 }
 
-// For loops that ask every vertex or edge after every step. A build for size makes calls of Eigen's
-// expressions, and none of these.
+// Plain loops over all vertices or edges after every step call these: a build for size makes calls
+// of Eigen's expressions, and none of these.
 /// |x_i|^2.
 inline double squared_norm(const Positions& x, Eigen::Index i) {
   const double* const c = x.data() + 3 * i;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/check.h"
+#include "core/base/simd.h"
 #include "core/model/elasticity.h"
 #include "core/model/hanging_vertices.h"
 
@@ -119,12 +120,13 @@ void StepperProjective::hold(const State& state, double h) {
 
 void StepperProjective::set_targets(double h) {
   const bool along = damps_along_spring(model_);
+  const double per_second = 1 / h;
   for (std::size_t s = 0; s < model_.springs.size(); ++s) {
     const Spring& spring = model_.springs[s];
     Target& target = targets_[s];
     target = {spring.stiffness, spring.rest_length, Vec3::Zero()};
     if (spring.damping == 0) continue;
-    const double damper = spring.damping / h;
+    const double damper = per_second * spring.damping;
     const Vec3 d = positions_begin_.col(spring.a) - positions_begin_.col(spring.b);
     if (along) {
       target.weight += damper;
@@ -278,32 +280,31 @@ void StepperProjective::place_first_guess(double time_end, double h) {
 }
 
 /// Slopes of the energy that the rounds lower [J], along fall_: at positions_, and where it ends.
+/// Springs are asked for both at once, a lane each.
 std::array<double, 2> StepperProjective::slopes(double h) const {
-  double begin = 0;
-  double end = 0;
+  using Both = Simd<double, 2>;
+  Both slope = Both::all(0);
   for (int i = 0; i < model_.n_vertices(); ++i) {
     if (model_.hangs(VertexId(i))) continue;
     const Vec3 fall = fall_.col(i);
     const double inertia = model_.masses[i] / (h * h);
-    const double slope = inertia * fall.dot(positions_.col(i) - predicted_.col(i));
-    begin += slope;
-    end += slope + inertia * fall.squaredNorm();
+    const double begin = inertia * fall.dot(positions_.col(i) - predicted_.col(i));
+    slope = slope + Both{{begin, begin + inertia * fall.squaredNorm()}};
   }
   for (std::size_t s = 0; s < model_.springs.size(); ++s) {
     const Spring& spring = model_.springs[s];
     const Target& target = targets_[s];
     const Vec3 d = positions_.col(spring.a) - positions_.col(spring.b);
     const Vec3 fall = fall_.col(spring.a) - fall_.col(spring.b);
-    const Vec3 d_end = d + fall;
-    const auto tension = [&target](const Vec3& way) {
-      const double length = way.norm();
-      return length > 0 ? target.weight * (1 - target.length / length) : target.weight;
-    };
-    const double damped = target.damped.dot(fall);
-    begin += tension(d) * d.dot(fall) - damped;
-    end += tension(d_end) * d_end.dot(fall) - damped;
+    const auto along = [&](int k) { return Both{{d[k], d[k] + fall[k]}}; };
+    const Vec3Lanes<Both> way = {along(0), along(1), along(2)};
+    const Both length = sqrt(dot(way, way));
+    const Both slack = where_positive(length, Both::all(target.length) / length);
+    const Both tension = Both::all(target.weight) * (Both::all(1) - slack);
+    const Vec3Lanes<Both> falls = {Both::all(fall.x()), Both::all(fall.y()), Both::all(fall.z())};
+    slope = slope + tension * dot(way, falls) - Both::all(target.damped.dot(fall));
   }
-  return {begin, end};
+  return {slope.value[0], slope.value[1]};
 }
 
 // Where every force but the springs' takes vertices, springs at pins have turned, and few rounds do
