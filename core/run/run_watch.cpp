@@ -109,23 +109,6 @@ Vec3 up_of(const ClothModel& model) {
   return model.gravity.isZero(0) ? Vec3(0, 0, 0) : Vec3(-model.gravity.normalized());
 }
 
-/// The largest stretch that held vertices ask for by their distance from each other. Straight
-/// through the cloth at rest there is at most the distance at rest.
-double stretch_between_pins(const Simulation& simulation) {
-  const auto& pins = simulation.model().pins;
-  const Positions& now = simulation.state().positions;
-  const Positions& rest = simulation.rest_positions();
-  double largest = 0;
-  for (std::size_t a = 0; a < pins.size(); ++a)
-    for (std::size_t b = a + 1; b < pins.size(); ++b) {
-      const VertexId i = pins[a].vertex;
-      const VertexId j = pins[b].vertex;
-      const double length = (rest.col(i) - rest.col(j)).norm();
-      if (length > 0) largest = std::max(largest, (now.col(i) - now.col(j)).norm() / length - 1);
-    }
-  return largest;
-}
-
 /// Cloth along whose threads springs lie, that hangs from pins alone: its load is known.
 bool has_known_load(const Simulation& simulation) {
   const ClothModel& model = simulation.model();
@@ -230,11 +213,17 @@ void RunWatch::tell_unbalanced(const Simulation& simulation,
        {RunWarning::Kind::unbalanced, look->time, VertexId(0), look->share, look->bound, {}});
 }
 
+/// The largest stretch that pins ask for by how far they are apart.
+double RunWatch::stretch_between_pins(const Simulation& simulation) {
+  return pin_stretch_.largest(simulation.model().pins, simulation.rest_positions(),
+                              simulation.state().positions);
+}
+
 // Weight and air pull at what holds the cloth; what it falls by before they do, and what drives it,
 // comes as a wave of strain v/c, c = sqrt(K/W) the speed of sound along a thread. Pins that pull
 // apart load threads as no one knows.
-double RunWatch::explained_softness(const Simulation& simulation) const {
-  if (stretch_between_pins(simulation) > kLeastSoftness)
+double RunWatch::explained_softness(const Simulation& simulation) {
+  if (!has_known_load_ || stretch_between_pins(simulation) > kLeastSoftness)
     return std::numeric_limits<double>::infinity();
   const ClothModel& model = simulation.model();
   const FabricConstants& fabric = simulation.scene().fabric;
@@ -266,17 +255,21 @@ void RunWatch::check_stretch(const Simulation& simulation) {
     if (by > longest.strain) longest = {by, edge.a};
     if (std::abs(by) > worst.strain) worst = {std::abs(by), edge.a};
   }
+  const auto is_softer = [&] {
+    const bool is_nonsense = !warnings_.empty() && warnings_[0].kind == RunWarning::Kind::stretch;
+    return longest.strain > soft_stretch_ && !is_nonsense && !simulation.is_disturbed();
+  };
+  if (worst.strain <= most && !is_softer()) return;
+  const double explained = explained_softness(simulation);
   const auto tell = [&](RunWarning::Kind kind, const Worst& of, double bound) {
     if (of.strain <= bound) return;
-    const double fabric = has_known_load_ ? std::min(bound, explained_softness(simulation)) : bound;
     warn(simulation, {kind, simulation.time(), of.vertex, of.strain, bound, {}},
-         of.strain / fabric);
+         of.strain / std::min(bound, explained));
   };
   if (worst.strain > most)
     tell(RunWarning::Kind::stretch, worst, most + stretch_between_pins(simulation));
-  const bool is_nonsense = !warnings_.empty() && warnings_[0].kind == RunWarning::Kind::stretch;
-  if (longest.strain <= soft_stretch_ || is_nonsense || simulation.is_disturbed()) return;
-  soft_stretch_ = std::max(soft_stretch_, explained_softness(simulation));
+  if (!is_softer()) return;
+  soft_stretch_ = std::max(soft_stretch_, explained);
   tell(RunWarning::Kind::soft, longest, soft_stretch_);
   soft_stretch_ = std::max(soft_stretch_, longest.strain);
 }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/run/pin_stretch.h"
 #include "core/run/rest_watch.h"
 #include "core/run/run_warning.h"
 #include "core/run/simulation.h"
@@ -29,7 +30,8 @@ class RunWatch {
 
  private:
   void check_stretch(const Simulation& simulation);
-  double explained_softness(const Simulation& simulation) const;
+  double stretch_between_pins(const Simulation& simulation);
+  double explained_softness(const Simulation& simulation);
   void check_speed(const Simulation& simulation);
   void check_report(const Simulation& simulation, const SolveReport& step);
   void tell_unbalanced(const Simulation& simulation, const std::optional<RestWatch::Look>& look);
@@ -48,6 +50,7 @@ class RunWatch {
   double driven_speed_ = 0;  // the largest so far of pins and solids [m/s]
   int n_unsolved_ = 0;       // looks in a row that saw a step left unsolved
   double unsolved_since_ = 0;  // the first of them [s]
+  PinStretch pin_stretch_;
   RestWatch rest_;
   std::vector<RunWarning> warnings_;
 };
