@@ -220,8 +220,9 @@ void Simulation::grab(VertexId vertex) {
   stepper_->refresh();
 }
 
-// The way between two vertices is their distance on a flat sheet, and along edges on other
-// surfaces. A hand as wide as what it holds bears all of its pull on that width.
+// The way between two vertices is their distance on a flat sheet, and along edges of triangles on
+// other surfaces: straight from one side of a skirt to the other there is no cloth. A hand as wide
+// as what it holds bears all of its pull on that width.
 HandReach Simulation::reach_of(VertexId vertex, double radius,
                                const std::vector<bool>& in_hand) const {
   const Vec3 place = state_.positions.col(vertex);
@@ -229,8 +230,9 @@ HandReach Simulation::reach_of(VertexId vertex, double radius,
   if (!scene_.cloth->is_surface() || scene_.model.tearing) return {{}, {}, {}, grip, 0};
   const Positions& rest = rest_positions();
   const Eigen::VectorXd ways =
-      mesh() ? Eigen::VectorXd((rest.colwise() - rest.col(vertex)).colwise().norm())
-             : ways_along(gauge_, vertex, model_.n_vertices());
+      scene_.cloth.as<SheetCloth>()
+          ? Eigen::VectorXd((rest.colwise() - rest.col(vertex)).colwise().norm())
+          : ways_along(gauge_edges(cloth_.mesh), vertex, model_.n_vertices());
   std::vector<HandReach::Thread> threads;
   for (const GaugeEdge& edge : gauge_) {
     if (in_hand[edge.a] == in_hand[edge.b]) continue;

@@ -6,6 +6,8 @@
 #include "core/run/hand_reach.h"
 #include "core/run/simulation.h"
 #include "core/scene/cloth/particle_cloth.h"
+#include "core/scene/format/scene_file.h"
+#include "native-tests/support/assets.h"
 #include "native-tests/support/cloth.h"
 #include "native-tests/support/graded_sheets.h"
 #include "native-tests/support/models.h"
@@ -144,6 +146,29 @@ TEST_CASE("hand: it gives way where the cloth is taut", "[run]") {
     const Vec3 end = simulation.state().positions.col(kLowerCorner.value);
     CHECK((end - begin).norm() < 1);
   }
+}
+
+// One pin at one side of the waist, and a hand at the other.
+TEST_CASE("hand: the way to a pin of a garment is round its body", "[run]") {
+  const auto beside = [](const std::string& name) {
+    return repository_file("assets/scenes/garments/" + name);
+  };
+  Scene scene = read_scene(beside("skirt_walk.json"), fabric_library(), beside);
+  scene.start.reset();
+  scene.level = 0;
+  const std::vector<VertexId> waist = scene.cloth->base_part("waist");
+  const std::size_t half = waist.size() / 2;
+  scene.pins = {PinRule{std::vector<VertexId>{waist[0]}, {}}};
+  Simulation simulation(scene);
+  const Positions& rest = simulation.rest_positions();
+  const auto distance = [&](std::size_t a, std::size_t b) {
+    return (rest.col(waist[a]) - rest.col(waist[b])).norm();
+  };
+  double way = 0;
+  for (std::size_t k = 0; k < half; ++k) way += distance(k, k + 1);
+  REQUIRE(distance(0, half) < 0.8 * way);
+  simulation.grab(waist[half]);
+  CHECK(simulation.asked_stretch() == Approx(distance(0, half) / way).epsilon(1e-3));
 }
 
 // One vertex at the origin, held; another one beside it.
