@@ -196,21 +196,30 @@ void Simulation::end_transition() {
   transition_.reset();
 }
 
+// A vertex that hangs goes where its parents go, and so with the hand only where it has both.
+std::vector<bool> Simulation::in_hand_at(VertexId vertex, double radius) const {
+  const std::vector<bool> pinned = model_.pinned();
+  const Positions& rest = rest_positions();
+  std::vector<bool> in_hand(pinned.size(), false);
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    in_hand[static_cast<std::size_t>(i)] = !pinned[static_cast<std::size_t>(i)] &&
+                                           !model_.hangs(VertexId(i)) &&
+                                           (rest.col(i) - rest.col(vertex)).norm() <= radius;
+  for (const HangingVertex& h : model_.hanging)
+    for (const VertexId parent : h.parents)
+      if (h.vertex == vertex) in_hand[parent] = !pinned[parent];
+  for (const HangingVertex& h : model_.hanging)
+    in_hand[h.vertex] = in_hand[h.parents[0]] && in_hand[h.parents[1]];
+  return in_hand;
+}
+
 void Simulation::grab(VertexId vertex) {
   PLEAT_CHECK(vertex >= 0 && vertex < model_.n_vertices(), "a grabbed vertex exists");
   release_grab();
   was_led_astray_ = true;
-  const std::vector<bool> pinned = model_.pinned();
   const double radius =
       scene_.cloth->is_surface() ? kHandRadius * scene_.cloth->rest_diagonal() : 0;
-  const Positions& rest = rest_positions();
-  std::vector<bool> in_hand(pinned.size(), false);
-  for (int i = 0; i < model_.n_vertices(); ++i)
-    in_hand[static_cast<std::size_t>(i)] =
-        !pinned[static_cast<std::size_t>(i)] && (rest.col(i) - rest.col(vertex)).norm() <= radius;
-  for (const HangingVertex& h : model_.hanging)
-    for (const VertexId parent : h.parents)
-      if (h.vertex == vertex) in_hand[parent] = !pinned[parent];
+  const std::vector<bool> in_hand = in_hand_at(vertex, radius);
   const Vec3 begin = state_.positions.col(vertex);
   grab_ = Grab{vertex, model_.pins.size(), begin, reach_of(vertex, radius, in_hand)};
   for (int i = 0; i < model_.n_vertices(); ++i) {

@@ -113,6 +113,8 @@ class Simulation final : public MovingCloth {
   void tear();
   void make_whole();
   void place_grab_pins();
+  /// Vertices that go with a hand at this one.
+  std::vector<bool> in_hand_at(VertexId vertex, double radius) const;
   HandReach reach_of(VertexId vertex, double radius, const std::vector<bool>& in_hand) const;
   void end_transition();
 

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/dynamics/stepper_table.h"
 #include "core/run/hand_reach.h"
@@ -76,6 +77,38 @@ TEST_CASE("hand: a vertex that hangs is at its target too, between its parents",
     CHECK(simulation.model().pins.size() < n_held);
     CHECK((simulation.state().velocities.col(held.parents[0]) - velocity).norm() < 1e-8);
   }
+}
+
+// Cells three times as high as wide: a hand beside a vertex that hangs in the middle of a cell's
+// side is wide enough for it, but not for its parents. Pulled away from it, only the thread
+// between them holds the hand back at once.
+TEST_CASE("hand: a thread to a vertex that hangs bounds it, as what hangs is not held", "[run]") {
+  Scene scene = hanging_scene(everyday_methods()[1]);
+  change_cloth<SheetCloth>(scene, [](SheetCloth& sheet) {
+    sheet.shape.width = 0.12;
+    sheet.shape.height = 0.36;
+  });
+  scene.plan = patchy_plan(*base_quads(scene));
+  Simulation simulation(scene);
+  const Positions& rest = simulation.rest_positions();
+  const HangingVertex hanging = simulation.model().hanging.back();
+  const auto from_it = [&](VertexId v) { return Vec3(rest.col(v) - rest.col(hanging.vertex)); };
+  VertexId beside;
+  for (const GaugeEdge& edge : simulation.gauge())
+    for (const auto& [near, far] : {std::pair(edge.a, edge.b), std::pair(edge.b, edge.a)})
+      if (near == hanging.vertex && far != hanging.parents[0] && far != hanging.parents[1])
+        beside = far;
+  REQUIRE(beside.valid());
+  const double radius = kHandRadius * scene.cloth->rest_diagonal();
+  const double length = from_it(beside).norm();
+  REQUIRE(length < radius);
+  REQUIRE(from_it(hanging.parents[0]).norm() > radius);
+  simulation.grab(beside);
+  const Vec3 begin = simulation.state().positions.col(beside);
+  simulation.move_grab(begin + from_it(beside) / 2);
+  REQUIRE(simulation.step().ok());
+  const double moved = (simulation.state().positions.col(beside) - begin).norm();
+  CHECK(moved == Approx(kHandStretch * length).epsilon(1e-6));
 }
 
 TEST_CASE("hand: a target that is not finite is ignored", "[run]") {
