@@ -157,7 +157,7 @@ SolveReport Simulation::step() {
       end_transition();
   }
   if (scene_.model.tearing && !transition_) tear();
-  if (grab_) place_grab_pins();
+  if (holds_cloth()) place_grab_pins();
   ended_ = stepper_->advance(state_, time());
   if (!ended_.ends_run()) ++n_steps_;
   return ended_;
@@ -196,11 +196,13 @@ void Simulation::end_transition() {
   transition_.reset();
 }
 
-// A vertex that hangs goes where its parents go, and so with the hand only where it has both.
+// A vertex that hangs goes where its parents go, and so with the hand only where it has both. A
+// hand does not stretch what it holds, so that all of it stays where a pin holds its middle.
 std::vector<bool> Simulation::in_hand_at(VertexId vertex, double radius) const {
   const std::vector<bool> pinned = model_.pinned();
   const Positions& rest = rest_positions();
   std::vector<bool> in_hand(pinned.size(), false);
+  if (pinned[vertex]) return in_hand;
   for (int i = 0; i < model_.n_vertices(); ++i)
     in_hand[static_cast<std::size_t>(i)] = !pinned[static_cast<std::size_t>(i)] &&
                                            !model_.hangs(VertexId(i)) &&
@@ -256,7 +258,7 @@ HandReach Simulation::reach_of(VertexId vertex, double radius,
 }
 
 double Simulation::asked_stretch() const {
-  return grab_ ? grab_->reach.asked(grab_->target, time()) : 0;
+  return holds_cloth() ? grab_->reach.asked(grab_->target, time()) : 0;
 }
 
 void Simulation::move_grab(const Vec3& target) {
@@ -274,7 +276,6 @@ void Simulation::release_grab() {
 /// The hand's pins go as far towards the target as it leads them, at constant speed during the
 /// coming step, so that substeps do not see a jump.
 void Simulation::place_grab_pins() {
-  if (grab_->first_pin == model_.pins.size()) return;  // only pinned vertices in the hand
   const double step = scene_.method.step;
   const Vec3 offset = grab_->reach.move(state_, grab_->vertex, grab_->target, time() + step, step);
   for (std::size_t p = grab_->first_pin; p < model_.pins.size(); ++p) {

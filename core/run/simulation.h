@@ -49,14 +49,15 @@ class Simulation final : public MovingCloth {
 
   /// Holds every vertex within the hand's radius (kHandRadius of the rest diagonal; of
   /// particles, only the vertex itself) of `vertex` and moves them together; of one that hangs,
-  /// the parents. One hand at a time. It pulls cloth that does not tear no further than its force
-  /// stretches it (kHandPull), and no faster than kHandSpeed.
+  /// the parents; of one that is pinned, which stays, none. One hand at a time. It pulls cloth that
+  /// does not tear no further than its force stretches it (kHandPull), and no faster than
+  /// kHandSpeed.
   void grab(VertexId vertex);
   bool is_grabbed() const { return grab_.has_value(); }
   /// Sets where the hand wants the grabbed vertex at the end of the next step [m].
   void move_grab(const Vec3& target);
   /// How many times as long as at rest the tautest thread would be, were the grabbed vertex where
-  /// the hand wants it; 0 where nothing else holds the cloth.
+  /// the hand wants it; 0 where nothing else holds the cloth, or the hand holds none.
   double asked_stretch() const;
   void release_grab();
 
@@ -112,6 +113,7 @@ class Simulation final : public MovingCloth {
   void take_cloth(RestCloth cloth);
   void tear();
   void make_whole();
+  bool holds_cloth() const { return grab_ && grab_->first_pin < model_.pins.size(); }
   void place_grab_pins();
   /// Vertices that go with a hand at this one.
   std::vector<bool> in_hand_at(VertexId vertex, double radius) const;

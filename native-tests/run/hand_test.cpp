@@ -135,6 +135,23 @@ TEST_CASE("hand: a pinned vertex stays at its pin", "[run]") {
   }
 }
 
+// The hand is wide enough for vertices that no pin holds on the finer mesh.
+TEST_CASE("hand: at a pin it holds nothing, and asks nothing of the cloth", "[run]") {
+  Scene scene = hanging_scene(everyday_methods()[1]);
+  scene.level = GENERATE(0, 2);
+  CAPTURE(scene.level);
+  Simulation simulation(scene);
+  const std::size_t n_pins = simulation.model().pins.size();
+  simulation.grab(VertexId(2));
+  simulation.move_grab(simulation.state().positions.col(2) + Vec3(0, -0.5, 1));
+  CHECK(simulation.is_grabbed());
+  CHECK(simulation.model().pins.size() == n_pins);
+  CHECK(simulation.asked_stretch() == 0);
+  simulation.grab(kLowerCorner);
+  CHECK(simulation.model().pins.size() > n_pins);
+  CHECK(simulation.asked_stretch() > 0.9);
+}
+
 TEST_CASE("simulation: after its end it says the same at every step and does not move", "[run]") {
   // A mass on a spring so stiff that an overflow follows from the first step.
   ParticleCloth particles;
