@@ -161,6 +161,46 @@ TEST_CASE("held cloth: a stretched thread comes loose from a rough floor at once
   }
 }
 
+// Such a thread that ties to pins below the floor press to it by twenty times its weight. Nothing
+// pulls a vertex up, and the floor's force alone would throw it off by three links.
+TEST_CASE("held cloth: what comes loose from a floor that it is pressed to stays on it",
+          "[contact]") {
+  constexpr int kVertices = 64;
+  constexpr double kRest = 1e-3;  // [m]
+  constexpr double kStretch = 0.01;
+  constexpr double kMass = 1e-8;               // [kg]
+  constexpr double kDepth = 0.01;              // depth of the pins [m]
+  constexpr double kPull = 20 * 9.81 * kMass;  // [N]
+  for (const StepperType* type : holding_steppers()) {
+    CAPTURE(type->name);
+    ClothModel model;
+    model.masses = Eigen::VectorXd::Constant(2 * kVertices, kMass);
+    model.gravity = Vec3(0, -9.81, 0);
+    model.contact.emplace(std::vector<Collider>{floor_collider(0.2)}, ContactOptions{});
+    State state;
+    state.positions = Positions::Zero(3, 2 * kVertices);
+    state.velocities = Positions::Zero(3, 2 * kVertices);
+    Positions forces = Positions::Zero(3, 2 * kVertices);
+    for (int i = 0; i < kVertices; ++i) {
+      const int below = kVertices + i;
+      state.positions(0, i) = state.positions(0, below) = (1 + kStretch) * kRest * i;
+      state.positions(1, below) = -kDepth;
+      model.pins.push_back({VertexId(below), state.positions.col(below), {}});
+      model.springs.push_back({VertexId(i), VertexId(below), 2 * kPull / kDepth, kDepth / 2});
+      if (i > 0) model.springs.push_back({VertexId(i - 1), VertexId(i), 100, kRest});
+      forces(1, i) = 9.81 * kMass + kPull;
+    }
+    const auto stepper = make_stepper(model, method_of(type, 1.0 / 240));
+    stepper->start_from_contact_forces(forces);
+    for (int s = 0; s < 3; ++s) {
+      const SolveReport report = stepper->advance(state, s / 240.0);
+      REQUIRE((report.ok() || type == &steppers::kProjective));
+      CHECK(state.positions.row(1).head(kVertices).cwiseAbs().maxCoeff() < 1e-9);
+    }
+    CHECK(state.positions(0, 1) - state.positions(0, 0) < (1 + 0.5 * kStretch) * kRest);
+  }
+}
+
 TEST_CASE("held cloth: a sheet slides down a slanted plane as a block does", "[contact]") {
   constexpr double kSlope = 0.35;
   constexpr double kDuration = 0.5;

@@ -95,6 +95,7 @@ std::span<const ContactHold::Held> ContactHold::let_loose(ContactMemory& memory,
     held = is_freed ? freed(held, force) : slipping(held, force);
     lost.resistance -= held.resistance;
     lost.force -= held.force;
+    lost.leaves = is_freed;
     lost_.push_back(lost);
     memory.forces().col(held.vertex) = held.force;
   }

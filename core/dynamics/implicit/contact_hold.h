@@ -31,15 +31,16 @@ class ContactHold {
   /// Hold on a touched vertex: the force R (u - v)/h at its velocity v.
   struct Held {
     VertexId vertex;
-    Mat3 resistance;    // R [kg]
-    Vec3 velocity;      // u, that it is held to [m/s]
-    Vec3 normal;        // unit, away from the solid
-    double turn_force;  // force that turns its velocity round the solid [N]
-    Vec3 force;         // remembered one, among the loads [N]
-    bool may_be_freed;  // is held no longer where it would be pulled
-    bool sticks;        // slips where it would be rubbed beyond friction
-    double friction;    // coefficient
-    double owed;        // friction that is left to it should it leave [N]
+    Mat3 resistance;      // R [kg]
+    Vec3 velocity;        // u, that it is held to [m/s]
+    Vec3 normal;          // unit, away from the solid
+    double turn_force;    // force that turns its velocity round the solid [N]
+    Vec3 force;           // remembered one, among the loads [N]
+    bool may_be_freed;    // is held no longer where it would be pulled
+    bool sticks;          // slips where it would be rubbed beyond friction
+    double friction;      // coefficient
+    double owed;          // friction that is left to it should it leave [N]
+    bool leaves = false;  // a loss after which it is off the solid, and does not only slip
   };
 
   /// Takes them from the matrix of a substep without holds; mass_unit turns its entries into kg.

@@ -182,19 +182,21 @@ double StepperProjective::hold_excess(VertexId vertex) const {
   return kHeldShare * diagonal_[vertex];
 }
 
-// A vertex that is freed moves little in the rounds that are left, as the matrix goes on holding
-// it. So it goes on from where its forces take it alone, if that is off the solid.
+// A vertex that leaves its solid moves little in the rounds that are left, as the matrix goes on
+// holding it. So it goes on from where its forces take it alone, if that is off the solid. One that
+// only slips is pressed as before: its force alone would throw it far off its neighbours.
 bool StepperProjective::free_pulled(double h) {
   if (!hold_) return false;
   velocities_ = (positions_ - positions_begin_) / h;
-  const auto freed = hold_->let_loose(contact_memory_, velocities_, h);
-  for (const ContactHold::Held& held : freed) {
+  const auto lost = hold_->let_loose(contact_memory_, velocities_, h);
+  for (const ContactHold::Held& held : lost) {
     const VertexId v = held.vertex;
     predicted_.col(v) -= h * h / model_.masses[v] * held.force;
+    if (!held.leaves) continue;
     const double rise = held.normal.dot(predicted_.col(v) - positions_.col(v));
     positions_.col(v) += std::max(rise, 0.0) * held.normal;
   }
-  return !freed.empty();
+  return !lost.empty();
 }
 
 /// Norm of what rounding makes of the matrix times positions_ [N].
