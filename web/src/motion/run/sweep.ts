@@ -2,16 +2,18 @@
 
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
-import type { BenchRow } from '../bindings/sweep-module';
+import type { BenchRow, SweepReport } from '../bindings/sweep-module';
 import type { MotionState } from '../state/motion-state';
 import { type StepCosts, withCost } from '../state/step-cost';
 import {
   hasFinished,
   type ReferenceKind,
+  type SweepPlan,
   type SweepWish,
   sweepPlan,
   sweptSetting,
 } from '../state/sweep-plan';
+import { progressOf } from '../state/sweep-progress';
 import { type SweepState, settingIn, sweptScene } from '../state/sweep-state';
 import type { FromSweep } from '../worker/sweep-protocol';
 import { type StartSweep, type SweepClient, startSweepWorker } from './measuring-client';
@@ -27,12 +29,26 @@ export interface Sweep {
   cancel(): void;
 }
 
+/** How far a sweep is, as far as that is known. */
+function toldOf(
+  report: SweepReport,
+  plan: SweepPlan,
+  { meshError, progress }: SweepState,
+  passedS: number,
+): Pick<SweepState, 'progress' | 'leftS'> {
+  if (report.done) return { progress: 1, leftS: 0 };
+  const makes = meshError !== 'known'; // references that no file had
+  const told = progressOf(report, plan, makes, passedS, progress ?? 0);
+  return { progress: told?.share ?? null, leftS: told?.leftS ?? null };
+}
+
 export function createSweep(
   store: Store<MotionState>,
   startWorker: StartSweep = startSweepWorker,
 ): Sweep {
   let worker: SweepClient | null = null;
   let measuringMs = 0; // when its work began, on the page's clock
+  let plan: SweepPlan | null = null;
 
   function patch(change: Partial<SweepState>): void {
     store.set({ sweep: { ...store.get().sweep, ...change } });
@@ -47,10 +63,10 @@ export function createSweep(
   function news(message: FromSweep): void {
     if (message.type === 'refused') return end('failed', message.failure.what);
     if (message.type !== 'sweepReport') return;
-    const { rows, front, progress, done, message: text, estimated_s: wholeS } = message.report;
-    const soFarS = (performance.now() - measuringMs) / 1000;
-    const leftS = wholeS === null ? null : Math.max(wholeS - soFarS, 0);
-    patch({ rows, front, progress, message: text, leftS });
+    const { rows, front, done, message: text } = message.report;
+    const passedS = (performance.now() - measuringMs) / 1000;
+    const told = plan && toldOf(message.report, plan, store.get().sweep, passedS);
+    patch({ rows, front, message: text, ...told });
     if (!done) return;
     keepCosts(rows);
     end('done', text);
@@ -77,6 +93,7 @@ export function createSweep(
     const meshError = await answerOf(planned, (failure) => end('failed', failure.what));
     if (meshError === null || worker !== own) return;
     patch({ meshError });
+    plan = planOf('same_mesh');
     measuringMs = performance.now();
     own.tell({ type: 'measure' });
   }
@@ -98,7 +115,7 @@ export function createSweep(
         sweepOpen: true,
         sweep: {
           phase: 'running',
-          progress: 0,
+          progress: null,
           message: 'Fetching the references',
           leftS: null,
           meshError: 'unshipped',

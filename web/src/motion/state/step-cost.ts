@@ -1,5 +1,10 @@
 // Cost of a step on this device at each level: as measured, or as expected from another level.
-import { stepperRow } from '../../shared/steppers/steppers';
+import {
+  STABLE_SUBSTEPS,
+  type StepperRow,
+  type Substeps,
+  stepperRow,
+} from '../../shared/steppers/steppers';
 import { COUNTS, type Setting, wantedShare, withLevel } from './setting';
 
 export interface StepCost {
@@ -23,9 +28,10 @@ const STABLE_WORK_PER_LEVEL = 16;
  */
 const SOLVED_WORK_PER_LEVEL = 7;
 
-function growthOf({ stepper, substeps }: Setting): number {
-  if (substeps === 0) return STABLE_WORK_PER_LEVEL;
-  return stepperRow(stepper).solves_whole_substeps ? SOLVED_WORK_PER_LEVEL : WORK_PER_LEVEL;
+/** Work of a step on a mesh over that on one a level coarser. */
+export function growthOf({ solves_whole_substeps }: StepperRow, substeps?: Substeps): number {
+  if (substeps === 0 || substeps === STABLE_SUBSTEPS) return STABLE_WORK_PER_LEVEL;
+  return solves_whole_substeps ? SOLVED_WORK_PER_LEVEL : WORK_PER_LEVEL;
 }
 
 /** So many levels finer than what was measured, an estimate is a bound: solves grow faster and faster. */
@@ -58,7 +64,7 @@ export function stepCostAt(costs: StepCosts, setting: Setting, level: number): S
   const measuredAt = (other: number) => costs[keyOf(at(other))];
   const own = measuredAt(level);
   if (own) return { ...own, isMeasured: true };
-  const growth = growthOf(setting);
+  const growth = growthOf(stepperRow(setting.stepper), setting.substeps);
   const substepsOver = (other: number) => at(level).substeps / at(other).substeps || 1;
   // The nearest level tells best; of two that are as near, the finer one.
   for (const away of [1, -1, 2, -2, 3, -3, 4, -4]) {

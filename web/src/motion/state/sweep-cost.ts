@@ -5,6 +5,7 @@ import { type StepCosts, stepCostAt } from './step-cost';
 import {
   durationS,
   FINEST_SHIPPED,
+  FIRST_ROUND,
   methodsAt,
   REPEATS,
   type SweepWish,
@@ -18,9 +19,6 @@ const STABLE_SUBSTEPS = 100;
 
 /** Time until the module is there and has its references [s]. */
 const START_S = 1.5;
-
-/** The first round is dearer than a timed one: it looks at the parts of each step and at the energy. */
-const FIRST_ROUND = 1.5;
 
 /** Rough cost of a step, in the same units for all steppers. */
 function workOf({ stepper, substeps, iterations }: Setting): number {

@@ -47,6 +47,9 @@ export function durationS({ preset }: Pick<Setting, 'preset'>): number {
 /** Timed runs of each setting. */
 export const REPEATS = 5;
 
+/** The first round is dearer than a timed one: it looks at the parts of each step and at the energy. */
+export const FIRST_ROUND = 1.5;
+
 /** Time that one step of a measured run advances [s]. */
 const STEP_S = 1 / 60;
 

@@ -12,10 +12,10 @@ export type MeshError = 'known' | 'unshipped' | 'unfetched';
 
 export interface SweepState {
   phase: 'none' | 'running' | 'done' | 'cancelled' | 'failed';
-  /** 0 to 1. */
-  progress: number;
+  /** Share of its time that has passed, 0 to 1; null while nobody knows. */
+  progress: number | null;
   message: string;
-  /** Time that the rest of it is expected to take [s]; null while nobody knows. */
+  /** Time that the rest of it is expected to take [s]; null as well. */
   leftS: number | null;
   meshError: MeshError;
   rows: BenchRow[];
@@ -29,7 +29,7 @@ export interface SweepState {
 
 export const NO_SWEEP: SweepState = {
   phase: 'none',
-  progress: 0,
+  progress: null,
   message: '',
   leftS: null,
   meshError: 'unshipped',

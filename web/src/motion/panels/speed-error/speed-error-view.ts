@@ -50,11 +50,22 @@ function createLegend() {
   };
 }
 
+/** Words on how far a sweep is: its share of the time, and until that is known what it has measured. */
+export function soFarWords({
+  phase,
+  progress,
+  rows,
+}: Pick<SweepState, 'phase' | 'progress' | 'rows'>): string {
+  if (phase !== 'running') return '';
+  if (progress !== null) return `So far: ${Math.floor(100 * progress)} % of the time it takes.`;
+  return `Settings measured so far: ${rows.length}.`;
+}
+
 /** Caption: what was measured, how far that is, and whose errors no mesh mends. */
-function besideHeadline({ scene, phase, progress, rows, meshError }: SweepState): string {
+function besideHeadline(sweep: SweepState): string {
+  const { scene, rows, meshError } = sweep;
   const cloth = scene ? `${scene.mesh?.name ?? PRESETS[scene.preset].title}, ${scene.fabric}.` : '';
-  const soFar = phase === 'running' ? `Measured so far: ${Math.floor(100 * progress)} %.` : '';
-  const parts = [cloth, soFar, methodSentence(rows, meshError)];
+  const parts = [cloth, soFarWords(sweep), methodSentence(rows, meshError)];
   return parts.filter((part) => part !== '').join(' ');
 }
 

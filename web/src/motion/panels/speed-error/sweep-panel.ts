@@ -144,7 +144,8 @@ export function createSweepPanel(
     start.disabled = state.phase === 'broken';
     cancel.hidden = !isRunning;
     progress.hidden = !isRunning;
-    progress.value = state.sweep.progress;
+    if (state.sweep.progress === null) progress.removeAttribute('value');
+    else progress.value = state.sweep.progress;
     open.hidden = state.sweep.rows.length === 0;
     setText(message, messageOf(state));
   });
