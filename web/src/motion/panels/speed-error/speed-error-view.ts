@@ -17,10 +17,19 @@ import { createSpeedErrorTable } from './speed-error-table';
 
 const NONSENSE = 'crossed out: not how cloth moves';
 
-/** Words on the front: rows of different references have one each. */
-function frontWords({ rows, meshError }: PlotContent): string {
+/**
+ * Words on the front: rows of different references have one each. What is crossed out is on none, and neither is what
+ * is below what its reference tells, which may be nearer.
+ */
+export function frontWords({ rows, meshError }: Pick<PlotContent, 'rows' | 'meshError'>): string {
   const isOfLevel = meshError !== 'known' && new Set(rows.map(({ level }) => level)).size > 1;
-  return `front: no other filled mark${isOfLevel ? ' of its level' : ''} is both faster and nearer`;
+  const others = `no other${isOfLevel ? ' mark of its level' : ' mark'} is both faster and nearer`;
+  const isUntold = (row: BenchRow) => hasFinished(row) && row.position_error_m === null;
+  const leftOut = [
+    ...(rows.some(isNonsense) ? ['those crossed out'] : []),
+    ...(rows.some(isUntold) ? ['empty ones'] : []),
+  ];
+  return `front: ${others}${leftOut.length > 0 ? `; ${leftOut.join(' and ')} do not count` : ''}`;
 }
 
 /** The marks of the steppers that have a row, and what else is drawn. */
