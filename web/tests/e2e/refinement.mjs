@@ -284,7 +284,10 @@ export async function checkRefinement(harness) {
         'the light says so',
       );
       const words = await page.locator('.fit-detail').textContent();
-      expectThat(/Changed: motion \(squat\).*10 frames in a row/.test(words), `it says: ${words}`);
+      expectThat(
+        /the normal walk; this is the squat\..*10 frames in a row/.test(words),
+        `it says: ${words}`,
+      );
       const anew = button(page, 'Plan anew with this motion too');
       await anew.focus();
       await page.keyboard.press('Enter');

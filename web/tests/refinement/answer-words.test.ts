@@ -18,6 +18,7 @@ const fine = { ...RECORDED, nVertices: 10920, msPerFrame: 400 };
 
 const STATE: RefinementState = {
   ...initialRefinementState(DEFAULT_LINK, []),
+  phase: 'ready',
   panes: { coarse, even: EMPTY_PANE, planned, fine },
 };
 
@@ -37,6 +38,37 @@ describe('the answer of the picture', () => {
     const here = withPanes({ planned: { ...planned, source: 'computed' } });
     expect(answerSentence(here)).toContain('with 16 % of its vertices');
     expect(answerSentence(withPanes({ planned: { ...planned, distanceM: null } }))).toBe('');
+  });
+
+  it('says of another fabric what is computed of it, and until then that it has to be', () => {
+    const silk: RefinementState = { ...STATE, fabric: 'silk', phase: 'loading' };
+    const empty = { coarse: EMPTY_PANE, even: EMPTY_PANE, planned: EMPTY_PANE, fine: EMPTY_PANE };
+    // The numbers that are still there are of the fabric before.
+    for (const panes of [empty, STATE.panes])
+      expect(answerSentence({ ...silk, panes })).toBe(
+        'How far off each mesh is, is known beforehand in fine cotton only: in silk it is computed here.',
+      );
+    expect(answerSentence({ ...STATE, phase: 'loading' })).toBe('');
+    const here = (pane: GarmentPane): GarmentPane => ({
+      ...pane,
+      source: 'computed',
+      faults: null,
+    });
+    const panes = { ...STATE.panes, planned: here(planned), coarse: here(coarse) };
+    const playing: RefinementState = { ...silk, panes, phase: 'ready', playing: true };
+    expect(answerSentence(playing)).toBe(
+      'Computed now in silk: multi-resolution 2.1 mm off fine, coarse 4.9 mm. Pause to learn whether cloth passes through itself.',
+    );
+    expect(answerSentence({ ...playing, playing: false })).toContain('with 16 % of its vertices');
+  });
+
+  it('says that nobody knows where the fine mesh rests', () => {
+    const resting = withPanes({
+      planned: { ...planned, distanceM: null },
+      fine: { ...fine, source: 'resting' },
+    });
+    expect(answerSentence(resting)).toMatch(/^The fine mesh rests/);
+    expect(answerSentence({ ...resting, phase: 'loading' })).toBe('');
   });
 
   it('tells the numbers of the badges', () => {

@@ -5,14 +5,14 @@ import { beforeAll, describe, expect, it } from 'vitest';
 import type { FitAnswer, RefinementModule } from '../../src/refinement/bindings/refinement-module';
 import {
   anewSentence,
-  changeSentence,
+  exampleSentence,
   fitReading,
   ruleSentence,
 } from '../../src/refinement/panels/fit-words';
 import { sceneFiles } from '../../src/refinement/run/scene-files';
 import { type Fit, LastingShare } from '../../src/refinement/state/fit';
 import { FRAMES_TO_FIRE, LARGEST_SHARE } from '../../src/refinement/state/garment-frames';
-import { sceneText } from '../../src/refinement/state/garments';
+import { MOTIONS, sceneText } from '../../src/refinement/state/garments';
 import type { PlanStory } from '../../src/refinement/state/plan-file';
 import {
   canPlanAnew,
@@ -83,23 +83,40 @@ describe('the light', () => {
     expect(ruleSentence(STORY)).toMatch(/more than 5\.0 % .* 10 frames in a row/);
   });
 
-  it('names what changed since the example: the motion, the fabric, or both', () => {
-    const of = (patch: Partial<typeof STATE>) => changeSentence({ ...STATE, ...patch });
-    expect(of({ motion: 'walk' })).toBe('Nothing changed: it is an example.');
-    expect(of({ motion: 'fast_walk' })).toBe('Changed: motion (fast walk).');
-    expect(of({ motion: 'walk', fabric: 'silk' })).toBe('Changed: fabric (silk).');
+  it('says what the example is, and that this is it or in what it differs', () => {
+    const of = (patch: Partial<typeof STATE>) => exampleSentence({ ...STATE, ...patch });
+    expect(of({ motion: 'walk' })).toBe('This is the example.');
+    expect(of({ motion: 'fast_walk' })).toBe(
+      'The example is the normal walk; this is the fast walk.',
+    );
+    expect(of({ motion: 'walk', fabric: 'silk' })).toBe(
+      'The example is in fine cotton; this is in silk.',
+    );
     expect(of({ motion: 'squat', fabric: 'silk' })).toBe(
-      'Changed: fabric (silk) and motion (squat).',
+      'The example is the normal walk in fine cotton; this is the squat in silk.',
     );
     // A further example is of the shown fabric.
     const further = ['squat'] as const;
-    expect(of({ motion: 'squat', fabric: 'silk', further })).toContain('Nothing changed');
+    expect(of({ motion: 'squat', fabric: 'silk', further })).toBe('This is one of the examples.');
     expect(of({ motion: 'walk', fabric: 'silk', further })).toBe(
-      'Changed: silk and normal walk together.',
+      'The examples are the normal walk in fine cotton and the squat in silk; this is the normal walk in silk.',
+    );
+    expect(of({ motion: 'turn', further })).toBe(
+      'The examples are the normal walk and the squat; this is the turn on the spot.',
     );
     expect(fitReading(FIRED, STORY, { ...STATE, fabric: 'silk' }).detail).toContain(
-      'fabric (silk)',
+      'this is the fast walk in silk',
     );
+  });
+
+  it('stands on a first picture without a word on a change: nobody made one', () => {
+    const first = fitReading({ ...FIT, n_frames: 1 }, STORY, STATE);
+    expect(first.light).toBe('watching');
+    expect(`${first.title} ${first.detail}`).not.toMatch(/chang/i);
+  });
+
+  it('is not contradicted by the name of a motion, whatever it says', () => {
+    for (const { title } of MOTIONS) expect(title).not.toMatch(/example|like/);
   });
 
   it('is followed by an offer of a plan for a motion that did not fit and is no example', () => {

@@ -1,6 +1,6 @@
 // The answer that the picture gives, in a sentence: how far from the fine cloth each mesh is now, and at what cost.
 import { percent, smallLength } from '../../shared/panels/quantity';
-import type { GarmentId } from '../state/garments';
+import { type GarmentId, usualFabric } from '../state/garments';
 import {
   comparedPanes,
   PANE_TITLES,
@@ -42,16 +42,27 @@ export function tangleSentence(state: RefinementState): string | null {
   return `Cloth passes through itself here (edges that cross: ${list}): nothing guards against that yet, so this moment says nothing about meshes.`;
 }
 
-/** Empty while nothing is known. */
+/** Words before any distance is known; empty where what comes with the page will tell it in a moment. */
+function waitingSentence({ garment, fabric, phase, panes: { fine } }: RefinementState): string {
+  if (phase === 'ready' && fine.source === 'resting')
+    return 'The fine mesh rests, so that nobody knows how far off the others are.';
+  const usual = usualFabric(garment);
+  if (fabric === usual || phase === 'broken' || phase === 'stopped') return '';
+  return `How far off each mesh is, is known beforehand in ${usual} only: in ${fabric} it is computed here.`;
+}
+
+/** Empty while nothing is known and nothing has to be computed. */
 export function answerSentence(state: RefinementState): string {
-  const { panes, garment, rival } = state;
+  const { panes, garment, rival, fabric } = state;
   const [ours, theirs] = [panes.planned.distanceM, panes[rival].distanceM];
-  if (ours === null || theirs === null) return '';
+  // What is known while something else is fetched is of what was shown before.
+  if (ours === null || theirs === null || state.phase === 'loading') return waitingSentence(state);
+  const [near, far] = [smallLength(ours), smallLength(theirs)];
   // While it is computed nobody counts whether cloth passes through itself.
-  if (state.playing && panes.planned.source === 'computed') return '';
+  if (state.playing && panes.planned.source === 'computed')
+    return `Computed now in ${fabric}: multi-resolution ${near} off fine, ${nameOf(rival)} ${far}. Pause to learn whether cloth passes through itself.`;
   const tangle = tangleSentence(state);
   if (tangle !== null) return tangle;
-  const [near, far] = [smallLength(ours), smallLength(theirs)];
   if (ours > MUCH_NEARER * theirs && state.timeS > 0 && !showsFineCloth(state))
     return `Once they move, meshes go ways of their own: the multi-resolution one is ${near} off the fine one, the ${nameOf(rival)} one ${far}.`;
   const { title, verb, one } = NAMES[garment];

@@ -7,8 +7,12 @@ import { answerSentence, tangleSentence } from './answer-words';
 export function createAnswer(parent: HTMLElement, store: Store<RefinementState>): void {
   const answer = element('p', { class: 'garment-answer' });
   parent.append(answer);
-  watch(store, ['panes', 'garment', 'rival', 'fineCloth'], (state) => {
-    answer.classList.toggle('tangled', tangleSentence(state) !== null);
-    setText(answer, answerSentence(state));
-  });
+  watch(
+    store,
+    ['panes', 'garment', 'fabric', 'rival', 'fineCloth', 'phase', 'playing'],
+    (state) => {
+      answer.classList.toggle('tangled', tangleSentence(state) !== null);
+      setText(answer, answerSentence(state));
+    },
+  );
 }

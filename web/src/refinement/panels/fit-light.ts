@@ -1,4 +1,4 @@
-// The light beside the panes: whether the motion is of the examples' kind, what changed, and by how much.
+// The light beside the panes: whether the motion is of the examples' kind, in what it differs, and by how much.
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { planStory } from '../state/plan-file';

@@ -20,28 +20,35 @@ export interface FitReading {
   detail: string;
 }
 
-/** "Fast walk: like the example" → "fast walk". */
+/** "Fast walk" → "fast walk". */
 function motionName(motion: MotionId): string {
-  const title = MOTIONS.find(({ value }) => value === motion)?.title ?? motion;
-  return (title.split(':')[0] ?? title).toLowerCase();
+  return (MOTIONS.find(({ value }) => value === motion)?.title ?? motion).toLowerCase();
 }
 
 type Shown = Pick<RefinementLink, 'garment' | 'motion' | 'fabric' | 'further'>;
 
-/** Says in what the shown run differs from those that the plan is made of. */
-export function changeSentence({ garment, motion, fabric, further }: Shown): string {
-  const examples = [
+type Run = Pick<Shown, 'motion' | 'fabric'>;
+
+/** Says what the plan is made of, and that this is it, or in what it differs: motion, fabric or both. */
+export function exampleSentence({ garment, motion, fabric, further }: Shown): string {
+  const examples: Run[] = [
     { motion: MOTIONS[0].value, fabric: usualFabric(garment) },
     ...further.map((own) => ({ motion: own, fabric })),
   ];
-  const isKnown = examples.some((own) => own.motion === motion && own.fabric === fabric);
-  if (isKnown) return 'Nothing changed: it is an example.';
-  const changed = [
-    ...(examples.some((own) => own.fabric === fabric) ? [] : [`fabric (${fabric})`]),
-    ...(examples.some((own) => own.motion === motion) ? [] : [`motion (${motionName(motion)})`]),
-  ];
-  if (changed.length === 0) return `Changed: ${fabric} and ${motionName(motion)} together.`;
-  return `Changed: ${changed.join(' and ')}.`;
+  const isSole = examples.length === 1;
+  const areOfFabric = examples.map((own) => own.fabric === fabric);
+  const areOfMotion = examples.map((own) => own.motion === motion);
+  if (examples.some((_, index) => areOfFabric[index] && areOfMotion[index]))
+    return `This is ${isSole ? 'the example' : 'one of the examples'}.`;
+  const isOneFabric = areOfFabric.every((isSame) => isSame);
+  const isOneMotion = areOfMotion.every((isSame) => isSame);
+  const nameOf = (run: Run) => {
+    if (isOneMotion) return `in ${run.fabric}`;
+    return `the ${motionName(run.motion)}${isOneFabric ? '' : ` in ${run.fabric}`}`;
+  };
+  const list = new Intl.ListFormat('en-GB').format(examples.map(nameOf));
+  const these = isSole ? 'The example is' : 'The examples are';
+  return `${these} ${list}; this is ${nameOf({ motion, fabric })}.`;
 }
 
 /** The rule by which it is decided. */
@@ -59,31 +66,31 @@ export function fitReading(fit: Fit | null, story: PlanStory | null, shown: Show
       detail: 'Each frame is compared with the example once the cloth moves.',
     };
   const examples = story.examples.length > 1 ? 'examples' : 'example';
-  const changed = changeSentence(shown);
+  const example = exampleSentence(shown);
   const limit = percent(LARGEST_SHARE);
   const lasting = `${percent(fit.lasting_share)} of the faces bent too far for ${FRAMES_TO_FIRE} frames in a row`;
   if (fit.first_fired !== null)
     return {
       light: 'fires',
       title: `Does not fit the ${examples}`,
-      detail: `${changed} Up to ${lasting}, more than the ${limit} allowed.`,
+      detail: `${example} Up to ${lasting}, more than the ${limit} allowed.`,
     };
   if (fit.n_frames < FRAMES_TO_FIT)
     return {
       light: 'watching',
       title: 'Watching',
-      detail: `${changed} ${fit.n_frames} of ${FRAMES_TO_FIT} frames seen: too few to tell.`,
+      detail: `${example} ${fit.n_frames} of ${FRAMES_TO_FIT} frames seen: too few to tell.`,
     };
   if (fit.share > LARGEST_SHARE)
     return {
       light: 'uneasy',
       title: 'Fits so far',
-      detail: `${changed} ${percent(fit.share)} of the faces bend too far now, for ${fit.n_in_a_row} of ${FRAMES_TO_FIRE} frames; ${limit} are allowed.`,
+      detail: `${example} ${percent(fit.share)} of the faces bend too far now, for ${fit.n_in_a_row} of ${FRAMES_TO_FIRE} frames; ${limit} are allowed.`,
     };
   return {
     light: 'fits',
     title: `Fits the ${examples}`,
-    detail: `${changed} At most ${lasting}; ${limit} are allowed.`,
+    detail: `${example} At most ${lasting}; ${limit} are allowed.`,
   };
 }
 

@@ -21,12 +21,12 @@ export const GARMENTS = [
 ] as const;
 export type GarmentId = (typeof GARMENTS)[number]['value'];
 
-/** The first one is what plans are made of. */
+/** The first one is what plans are made of. Whether others are like it, the light tells. */
 export const MOTIONS = [
-  { value: 'walk', title: 'Normal walk: the example' },
-  { value: 'fast_walk', title: 'Fast walk: like the example' },
+  { value: 'walk', title: 'Normal walk' },
+  { value: 'fast_walk', title: 'Fast walk' },
   { value: 'turn', title: 'Turn on the spot' },
-  { value: 'squat', title: 'Squat: unlike the example' },
+  { value: 'squat', title: 'Squat' },
 ] as const;
 export type MotionId = (typeof MOTIONS)[number]['value'];
 
