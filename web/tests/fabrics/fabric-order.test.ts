@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { stiffnessSentence } from '../../src/fabrics/panels/fabric-card';
-import { markedQuantity, orderNote } from '../../src/fabrics/panels/fabric-gallery';
+import { orderedQuantity, orderNote } from '../../src/fabrics/panels/fabric-gallery';
 import { paneNumber } from '../../src/fabrics/panels/pane-badges';
 import { ORDERS, orderedFabrics, quantityOf } from '../../src/fabrics/state/fabric-order';
 import { decodeFabricsLink } from '../../src/fabrics/state/fabrics-link';
@@ -33,11 +33,11 @@ describe('order of fabrics', () => {
   });
 
   it('writes numbers with units, and marks what was not measured', () => {
-    expect(markedQuantity(fabricNamed('wool'), 'bending')).toBe('~78 µN·m');
-    expect(markedQuantity(fabricNamed('polyester'), 'bending')).toBe('8.3 µN·m');
-    expect(markedQuantity(fabricNamed('wool'), 'source')).toBe('');
+    expect(orderedQuantity(fabricNamed('wool'), 'bending')).toBe('~78 µN·m');
+    expect(orderedQuantity(fabricNamed('polyester'), 'bending')).toBe('8.3 µN·m');
+    expect(orderedQuantity(fabricNamed('wool'), 'source')).toBe('');
     expect(stiffnessSentence(fabricNamed('linen'))).toMatch(
-      /35 µN·m \(estimated\): number 6 of 15 .* 170 g\/m² .* bending length of 28 mm/,
+      /~35 µN·m \(estimated\): number 6 of 15 .* ~170 g\/m² .* bending length of ~28 mm/,
     );
   });
 
@@ -47,7 +47,7 @@ describe('order of fabrics', () => {
   });
 
   it('says that neighbours marked ~ may be in another order', () => {
-    expect(markedQuantity(fabricNamed('canvas'), 'bending')).toBe('~82 µN·m');
+    expect(orderedQuantity(fabricNamed('canvas'), 'bending')).toBe('~82 µN·m');
     expect(orderNote('bending')).toContain('Ordered by bending rigidity');
     expect(confidenceMeaning.estimated).toContain('factor of 2');
     expect(orderNote('bending')).toMatch(/~ .* factor of 2: neighbours .* in another order/);

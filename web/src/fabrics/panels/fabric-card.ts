@@ -9,23 +9,18 @@ import {
 } from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { checkBox, element, setText } from '../../shared/panels/element';
-import {
-  quantityMeanings,
-  quantityRows,
-  quantityText,
-  sourceList,
-} from '../../shared/panels/fabric-quantities';
+import { quantityMeanings, quantityRows, sourceList } from '../../shared/panels/fabric-quantities';
 import { digits, percent } from '../../shared/panels/quantity';
 import { folded, noteLine } from '../../shared/panels/section';
 import { heading, numberCell, rowOf, tableOf } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
 import type { FitAnswer, TermNumbers } from '../bindings/deform-module';
-import { bendingLength, lengthWords } from '../state/bending-length';
 import { type DeformState, TERMS } from '../state/deform-state';
 import { titleOf } from '../state/fabric-choice';
 import { EXPECTATIONS } from '../state/fabric-expectations';
 import { geometryOf } from '../state/fabric-geometry';
 import { rankOf } from '../state/fabric-order';
+import { bendingLengthWords, markedQuantity } from './marked-words';
 import { TERM_COSTS, TERM_MEASUREMENTS, TERM_TITLES } from './term-words';
 import { createWeightBar, termKey, weightWords } from './weight-bar';
 
@@ -54,10 +49,10 @@ function shownOf(fabric: FabricRecord): Shown {
 /** How stiff it is beside the others, which its weights do not say, and how far it holds itself up. */
 export function stiffnessSentence(fabric: FabricRecord): string {
   const key = 'bend_warp_n_m';
-  const rigidity = `${quantityText(fabric, key)} (${inRun(fabric, key).confidence})`;
+  const rigidity = `${markedQuantity(fabric, key)} (${inRun(fabric, key).confidence})`;
   const rank = `number ${rankOf(fabric, key)} of ${fabrics.length} from the stiffest`;
-  const weight = quantityText(fabric, 'areal_density_kg_per_m2');
-  const length = lengthWords(bendingLength(fabric));
+  const weight = markedQuantity(fabric, 'areal_density_kg_per_m2');
+  const length = bendingLengthWords(fabric);
   return `In forces, its bending rigidity at rest is ${rigidity}: ${rank}. With its weight of ${weight} that is a bending length of ${length}.`;
 }
 

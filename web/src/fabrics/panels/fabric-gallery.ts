@@ -1,5 +1,5 @@
 // All fabrics as a list: one is shown in the chosen pane, up to four stand side by side.
-import { type FabricRecord, fabricNamed, fabrics, inRun } from '../../shared/fabric/fabric-data';
+import { type FabricRecord, fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import {
   button as buttonOf,
@@ -8,13 +8,13 @@ import {
   field,
   setText,
 } from '../../shared/panels/element';
-import { quantityText } from '../../shared/panels/fabric-quantities';
 import { addSection, noteLine } from '../../shared/panels/section';
 import { type Store, watch } from '../../shared/state/store';
 import { type DeformState, type FabricChoice, TERMS } from '../state/deform-state';
 import { type Comparison, isSame, titleOf, withShown, withToggled } from '../state/fabric-choice';
 import { geometryOf } from '../state/fabric-geometry';
 import { type FabricOrder, orderedFabrics, quantityOf } from '../state/fabric-order';
+import { markedQuantity } from './marked-words';
 import { TERM_TITLES } from './term-words';
 import { createWeightBar, termKey, weightWords } from './weight-bar';
 
@@ -48,12 +48,10 @@ export function orderNote(order: FabricOrder): string {
   return `Ordered by ${MEANINGS[order]}. Numbers marked ~ may be off by a factor of 2: neighbours among them may be in another order. The panes show something else: shapes by weights measured in 2015, which do not say which of two fabrics is stiffer.`;
 }
 
-/** "~45 µN·m": marked where nobody measured this very kind of cloth. */
-export function markedQuantity(fabric: FabricRecord, order: FabricOrder): string {
+/** The number that fabrics are ordered by; empty where that is none. */
+export function orderedQuantity(fabric: FabricRecord, order: FabricOrder): string {
   const key = quantityOf(order);
-  if (key === null) return '';
-  const mark = inRun(fabric, key).confidence === 'measured' ? '' : '~';
-  return mark + quantityText(fabric, key);
+  return key === null ? '' : markedQuantity(fabric, key);
 }
 
 /** Cell of the list: the fabric's button in column 0, its check box in column 1. */
@@ -184,7 +182,7 @@ function renderRows(rows: readonly Row[], state: DeformState): void {
     showWeights(weights);
     bar.hidden = order !== 'source';
     quantity.hidden = order === 'source';
-    setText(quantity, markedQuantity(fabric, order));
+    setText(quantity, orderedQuantity(fabric, order));
     setText(words, order === 'source' ? `: ${weightWords(weights)}` : '');
     button.setAttribute('aria-pressed', String(shown[chosen] === name));
     box.checked = shown.includes(name);

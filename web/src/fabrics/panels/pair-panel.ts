@@ -1,14 +1,13 @@
 // The scene and the two fabrics that move in it, their numbers, and how far apart they are.
 import { type FabricQuantity, fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
 import { choice, element, field, setText } from '../../shared/panels/element';
-import { quantityText } from '../../shared/panels/fabric-quantities';
 import { digits } from '../../shared/panels/quantity';
 import { createRunTools, type Playable } from '../../shared/panels/run-tools';
 import { addSection, noteLine } from '../../shared/panels/section';
 import { heading, numberCell, rowOf, tableOf } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
-import { bendingLength, lengthWords } from '../state/bending-length';
 import { PAIR_SCENE_IDS, PAIR_SCENES, type Pair, type PairState } from '../state/pair';
+import { bendingLengthWords, markedQuantity } from './marked-words';
 
 const ROWS: readonly [string, FabricQuantity][] = [
   ['Weight', 'areal_density_kg_per_m2'],
@@ -28,9 +27,9 @@ export function apartWords({ apartM, pair, timeS }: PairState): string {
 function numberRows(pair: Pair): HTMLElement[] {
   const records = pair.map(fabricNamed);
   const rows = ROWS.map(([title, key]) =>
-    rowOf(title, ...records.map((fabric) => numberCell(quantityText(fabric, key)))),
+    rowOf(title, ...records.map((fabric) => numberCell(markedQuantity(fabric, key)))),
   );
-  const lengths = records.map((fabric) => numberCell(lengthWords(bendingLength(fabric))));
+  const lengths = records.map((fabric) => numberCell(bendingLengthWords(fabric)));
   return [...rows, rowOf('Bending length', ...lengths)];
 }
 
@@ -59,7 +58,7 @@ export function createPairPanel(parent: HTMLElement, store: Store<PairState>): v
     'Numbers of both',
     box,
     noteLine(
-      'Along the warp. Bending is at rest, with the friction between yarns: the number that this run takes.',
+      'Along the warp. Bending is at rest, with the friction between yarns: the number that this run takes. Numbers with ~ nobody measured on this very cloth.',
     ),
   );
   watch(store, ['scene', 'pair'], ({ scene: now, pair }) => {
@@ -110,7 +109,7 @@ export function createPairBadges(parent: HTMLElement, store: Store<PairState>) {
       const badge = badges[pane];
       if (!badge) return;
       setText(badge.name, fabric);
-      setText(badge.length, `bending length ${lengthWords(bendingLength(fabricNamed(fabric)))}`);
+      setText(badge.length, `bending length ${bendingLengthWords(fabricNamed(fabric))}`);
     });
   });
   return { setColumns: (n: number) => grid.style.setProperty('--columns', String(n)) };

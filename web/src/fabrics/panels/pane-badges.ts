@@ -7,7 +7,7 @@ import { type Store, watch } from '../../shared/state/store';
 import { titleOf } from '../state/fabric-choice';
 import type { FabricOrder } from '../state/fabric-order';
 import type { FabricsState } from '../state/fabrics-state';
-import { markedQuantity } from './fabric-gallery';
+import { orderedQuantity } from './fabric-gallery';
 
 type Pane = FabricsState['panes'][number];
 
@@ -32,7 +32,7 @@ export function paneNumber(
 ): { words: string; meaning: string } {
   if (order === 'source' || fabric.kind === 'own')
     return { words: `energy ${digits(energy)}`, meaning: ENERGY_MEANING };
-  return { words: markedQuantity(fabricNamed(fabric.name), order), meaning: QUANTITY_MEANING };
+  return { words: orderedQuantity(fabricNamed(fabric.name), order), meaning: QUANTITY_MEANING };
 }
 
 function createBadge(choose: () => void) {

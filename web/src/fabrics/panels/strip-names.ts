@@ -2,16 +2,12 @@
 import { fabricNamed } from '../../shared/fabric/fabric-data';
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
-import { bendingLength, lengthWords } from '../state/bending-length';
 import { type StripsState, sortedStrips } from '../state/strips-state';
+import { bendingLengthWords, droopWords } from './marked-words';
 
 /** Strips on one shelf, for a stage of that shape: as large as they come. */
 export function stripsToAShelf(width: number, height: number, n: number): number {
   return Math.ceil(n / (width > height ? 2 : 3));
-}
-
-export function droopWords(droop: number | undefined): string {
-  return droop === undefined ? '' : `${droop.toFixed(0)}°`;
 }
 
 /** "denim" of "coarse cotton (denim)". */
@@ -30,13 +26,14 @@ export function createStripNames(parent: HTMLElement, store: Store<StripsState>)
     return { root, name, length, droop };
   });
   watch(store, ['droops', 'chosen'], (state) => {
-    sortedStrips(state).forEach((fabric, index) => {
+    sortedStrips(state).forEach((name, index) => {
       const one = names[index];
       if (!one) return;
-      setText(one.name, shortName(fabric));
-      setText(one.length, lengthWords(bendingLength(fabricNamed(fabric))));
-      setText(one.droop, droopWords(state.droops[fabric]));
-      one.root.classList.toggle('chosen', fabric === state.chosen);
+      const fabric = fabricNamed(name);
+      setText(one.name, shortName(name));
+      setText(one.length, bendingLengthWords(fabric));
+      setText(one.droop, droopWords(fabric, state.droops[name]));
+      one.root.classList.toggle('chosen', name === state.chosen);
     });
   });
   return {

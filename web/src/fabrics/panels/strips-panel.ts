@@ -2,14 +2,12 @@
 import { fabricNamed, fabrics, inRun } from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { button, element, setText } from '../../shared/panels/element';
-import { quantityText } from '../../shared/panels/fabric-quantities';
 import { addSection, noteLine } from '../../shared/panels/section';
 import { heading, numberCell, tableOf } from '../../shared/panels/table-parts';
 import { type Store, watch } from '../../shared/state/store';
-import { bendingLength, lengthWords } from '../state/bending-length';
 import { OVERHANG_M } from '../state/strips';
 import { type StripsState, sortedStrips } from '../state/strips-state';
-import { droopWords } from './strip-names';
+import { bendingLengthWords, droopWords, markedQuantity } from './marked-words';
 
 export interface StripsActions {
   go(): void;
@@ -23,23 +21,24 @@ const CENTIMETRES = (100 * OVERHANG_M).toFixed(0);
 const CAPTION = `Each strip reaches ${CENTIMETRES} cm over an edge and droops by its own weight. The stiffer and the lighter the cloth, the longer its bending length, and the less it droops.`;
 
 const HOW =
-  'Computed here, by the simulation of cloth in motion, until each strip rests. Numbers with ~ come of rigidities that may be off by a factor of 2, lengths by a quarter: neighbours may be in another order.';
+  'Computed here, by the simulation of cloth in motion, until each strip rests. Numbers with ~ come of a rigidity or a weight that nobody measured on this very cloth. A rigidity may be off by a factor of 2, a length by a quarter: neighbours may be in another order.';
 
 /** The one number that the picture is about, once it is known. */
 export function stripsAnswer(state: Pick<StripsState, 'droops'>): string {
   const sorted = sortedStrips(state).filter((name) => state.droops[name] !== undefined);
   if (sorted.length < fabrics.length) return `${sorted.length} of ${fabrics.length} strips rest.`;
   const [first = '', last = ''] = [sorted[0], sorted.at(-1)];
-  return `${first} droops least, by ${droopWords(state.droops[first])}; ${last} most, by ${droopWords(state.droops[last])}.`;
+  const droopOf = (name: string) => droopWords(fabricNamed(name), state.droops[name]);
+  return `${first} droops least, by ${droopOf(first)}; ${last} most, by ${droopOf(last)}.`;
 }
 
-/** "canvas: 82 µN·m hold up 290 g/m²" and what follows from that. */
+/** "canvas: ~82 µN·m hold up 290 g/m²" and what follows from that. */
 export function stripReading(name: string, droop: number | undefined): string {
   const fabric = fabricNamed(name);
-  const bending = quantityText(fabric, 'bend_warp_n_m');
-  const weight = quantityText(fabric, 'areal_density_kg_per_m2');
-  const length = lengthWords(bendingLength(fabric));
-  const droops = droop === undefined ? '' : ` It droops by ${droopWords(droop)}.`;
+  const bending = markedQuantity(fabric, 'bend_warp_n_m');
+  const weight = markedQuantity(fabric, 'areal_density_kg_per_m2');
+  const length = bendingLengthWords(fabric);
+  const droops = droop === undefined ? '' : ` It droops by ${droopWords(fabric, droop)}.`;
   return `${name}: a bending rigidity of ${bending} (${inRun(fabric, 'bend_warp_n_m').confidence}) against a weight of ${weight} makes a bending length of ${length}.${droops}`;
 }
 
@@ -57,9 +56,8 @@ function createRow(choose: (name: string) => void) {
       const { front, back } = lookOf(fabric.id);
       swatch.style.background = `linear-gradient(135deg, ${front} 50%, ${back} 50%)`;
       setText(title, name);
-      const isKnown = inRun(fabric, 'bend_warp_n_m').confidence === 'measured';
-      setText(length, `${isKnown ? '' : '~'}${lengthWords(bendingLength(fabric))}`);
-      setText(droop, droopWords(droops[name]));
+      setText(length, bendingLengthWords(fabric));
+      setText(droop, droopWords(fabric, droops[name]));
       press.setAttribute('aria-pressed', String(name === chosen));
     },
   };

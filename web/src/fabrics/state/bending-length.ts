@@ -13,8 +13,3 @@ export function bendingLength(fabric: FabricRecord): number {
   const weight = GRAVITY * inRun(fabric, 'areal_density_kg_per_m2').value;
   return Math.cbrt(rigidity / weight);
 }
-
-/** "26 mm": two digits are more than is known. */
-export function lengthWords(metres: number): string {
-  return `${(1000 * metres).toFixed(0)} mm`;
-}
