@@ -244,8 +244,8 @@ export function createMotionView(place: Place, hash: string): MotionView {
     wear(fabric) {
       store.set({ setting: { ...store.get().setting, fabric } });
     },
-    start({ section, positions }, fabric) {
-      const mesh = deformedMesh(section, positions);
+    start(shape, fabric) {
+      const mesh = deformedMesh(shape);
       const setting = { ...presetSetting('obj'), fabric, hold: holdFor(mesh, 'group:held') };
       store.set({ ...AT_START, mesh, setting });
     },

@@ -1,23 +1,26 @@
 // The page's end of the worker of deformed cloth: what it shows is what the worker has.
 import { beforeAll, describe, expect, it, vi } from 'vitest';
-import type { DeformModule } from '../../src/fabrics/bindings/deform-module';
 import type { StartDeform } from '../../src/fabrics/run/deform-client';
 import { Deformer } from '../../src/fabrics/run/deformer';
+import { BORNE, reachOf, restEdges } from '../../src/fabrics/state/edge-reach';
 import { geometryOf } from '../../src/fabrics/state/fabric-geometry';
 import { decodeFabricsLink, encodeFabricsLink } from '../../src/fabrics/state/fabrics-link';
 import { initialFabricsState } from '../../src/fabrics/state/fabrics-state';
 import { joined } from '../../src/fabrics/state/holds';
 import { DeformCore } from '../../src/fabrics/worker/deform-core';
 import type { FromDeform, ToDeform } from '../../src/fabrics/worker/deform-protocol';
+import { deformedMesh, holdFor } from '../../src/motion/state/obj-mesh';
+import { presetSetting, sceneOf } from '../../src/motion/state/setting';
 import { frameViews } from '../../src/shared/bindings/frame';
-import { fabricNamed } from '../../src/shared/fabric/fabric-data';
+import { fabricNamed, fabricsText } from '../../src/shared/fabric/fabric-data';
+import type { StartShape } from '../../src/shared/page/view';
 import { createStore } from '../../src/shared/state/store';
 import { createAsked } from '../../src/shared/workers/asked';
-import { loadModule } from '../support/built-module';
+import { type BuiltModule, loadModule } from '../support/built-module';
 import { workerPort } from '../support/worker-port';
 
 // The worker is a core in this thread. Messages to it and from it come later and in their order.
-let module: DeformModule;
+let module: BuiltModule;
 let end: ((reason: string) => void) | undefined; // ends the worker that was started last
 const start: StartDeform = (listener) => {
   end = listener.broken;
@@ -81,6 +84,26 @@ async function open(hash: string) {
       };
     },
   };
+}
+
+/** The edges of a start shape, as they are there and over what they are at rest. */
+function startReach({ section, positions }: StartShape) {
+  const { mesh } = section as { mesh: { positions_m: number[][]; triangles: number[][] } };
+  const edges = restEdges(Uint32Array.from(mesh.triangles.flat()), mesh.positions_m.flat());
+  return reachOf(edges, positions);
+}
+
+/** Kinds of the warnings of half a second of motion from there. */
+function warningsFrom(shape: StartShape, fabric: string): string[] {
+  const mesh = deformedMesh(shape);
+  const setting = { ...presetSetting('obj'), fabric, hold: holdFor(mesh, 'group:held') };
+  const run = new module.Simulation(fabricsText);
+  expect(JSON.parse(run.load(JSON.stringify(sceneOf(setting, mesh)))).ok).toBe(true);
+  expect(JSON.parse(run.startFrom(shape.positions)).ok).toBe(true);
+  run.step(30);
+  const { warnings } = JSON.parse(run.numbers()) as { warnings: { kind: string }[] };
+  run.delete();
+  return warnings.map(({ kind }) => kind);
 }
 
 const SCENE = '#view=fabrics&scene=terms&fabrics=wool';
@@ -192,5 +215,32 @@ describe('deformer', () => {
     expect(store.get().panes[0]?.reach?.longest).toBeGreaterThan(1.1);
     deformer.resetHolds();
     expect(store.get().panes[0]?.reach).toBeNull();
+  });
+
+  it.each(['pull', 'ball', 'diagonal_stretch', 'wrinkles', 'terms'])(
+    'hands over a start of %s that cloth bears, and from which it moves without a warning',
+    async (id) => {
+      const { store, deformer } = await open(`#view=fabrics&scene=${id}&fabrics=silk`);
+      const told = store.get().panes[0]?.reach;
+      const shape = await deformer.startShape();
+      if (!told || !shape) throw new Error('a shape was expected');
+      const { longest, shortest } = startReach(shape);
+      expect(longest).toBeLessThan(BORNE + 1e-6);
+      expect(shortest).toBeGreaterThan(1 / BORNE - 1e-6);
+      expect(told.share).toBeGreaterThan(0);
+      const isEased = told.share < 1;
+      if (isEased) expect(Math.min(BORNE - longest, shortest - 1 / BORNE)).toBeCloseTo(0, 4);
+      expect(shape.name.includes('eased in by')).toBe(isEased);
+      expect(warningsFrom(shape, 'silk')).toEqual([]);
+    },
+  );
+
+  it('hands over the very shape where cloth bears it', async () => {
+    const { store, deformer } = await open(
+      '#view=fabrics&scene=terms&fabrics=velvet&held=middle:0,-0.09,0',
+    );
+    expect(store.get().panes[0]?.reach?.share).toBe(1);
+    const shape = await deformer.startShape();
+    expect(shape?.name).toBe('The pulled cloth');
   });
 });

@@ -2,7 +2,7 @@
 import { button, checkBox, element, setText } from '../../shared/panels/element';
 import { createSegments, type Segment } from '../../shared/panels/segments';
 import { type Store, watch } from '../../shared/state/store';
-import { startRefusal } from '../state/edge-reach';
+import { easedSentence } from '../state/edge-reach';
 import type { FabricsState, Tool } from '../state/fabrics-state';
 
 export interface StageToolActions {
@@ -25,7 +25,7 @@ export function whyNoStart({ panes, chosen, phase }: FabricsState): string | nul
   const pane = panes[chosen];
   if (!pane || phase !== 'ready') return UNKNOWN;
   if (pane.fabric.kind === 'own') return NO_MOTION;
-  return pane.reach ? startRefusal(pane.reach) : UNKNOWN;
+  return pane.reach ? null : UNKNOWN;
 }
 
 export function createStageTools(
@@ -55,10 +55,13 @@ export function createStageTools(
     wear.disabled = isOwn || state.phase !== 'ready';
     wear.title = isOwn ? NO_MOTION : 'The scene of the other view in this fabric';
     const why = whyNoStart(state);
+    const { reach } = state.panes[state.chosen] ?? {};
+    const eased = why === null && reach ? easedSentence(reach) : null;
     start.disabled = why !== null;
-    start.title = why ?? 'Lets this very cloth go, from the shape it has';
-    const isWorthSaying = why !== null && why !== UNKNOWN;
-    reason.hidden = !isWorthSaying;
-    setText(reason, isWorthSaying ? why : '');
+    start.title =
+      why ?? 'Lets this very cloth go, from the shape it has or from part of the way to it';
+    const words = (why === UNKNOWN ? null : why) ?? eased;
+    reason.hidden = words === null;
+    setText(reason, words ?? '');
   });
 }

@@ -23,7 +23,7 @@ import { answerOf } from '../../shared/workers/asked';
 import { endedSentence, Restarts } from '../../shared/workers/restarts';
 import type { TermNumbers } from '../bindings/deform-module';
 import type { PaneState } from '../state/deform-state';
-import { type RestEdges, reachOf, restEdges } from '../state/edge-reach';
+import { easedShape, easedWords, type RestEdges, reachOf, restEdges } from '../state/edge-reach';
 import { EXPERIMENTS, type Experiment, ownExperiment } from '../state/experiments';
 import { type Comparison, titleOf } from '../state/fabric-choice';
 import type { FabricOrder } from '../state/fabric-order';
@@ -206,10 +206,16 @@ export class Deformer {
     void question.then((answer) => answer && this.receiveFitted(answer));
   }
 
-  /** The shape of the chosen pane, to start a motion from; null when it cannot be told. */
-  startShape(): Promise<StartShape | null> {
+  /** The shape of the chosen pane, as far as cloth bears it, to start a motion from; null when it cannot be told. */
+  async startShape(): Promise<StartShape | null> {
+    const { edges } = this;
     const question = this.client.ask({ type: 'section', pane: this.store.get().chosen });
-    return answerOf(question, (failure) => this.refuse(failure));
+    const answer = await answerOf(question, (failure) => this.refuse(failure));
+    if (!answer || !edges) return null;
+    const { section, positions } = answer;
+    const reach = reachOf(edges, positions);
+    const name = ['The pulled cloth', easedWords(reach)].filter((part) => part !== '').join(', ');
+    return { name, section, positions: easedShape(edges.rest, positions, reach.share) };
   }
 
   private replaceClient(): void {

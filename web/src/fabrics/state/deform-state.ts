@@ -22,7 +22,7 @@ export interface PaneState {
   status: 'dragging' | 'settling' | 'converged' | 'not_converged';
   /** Time of the last update [ms]. */
   updateMs: number;
-  /** How far its edges are stretched and pushed together; null until the shape is found. */
+  /** How far its edges are stretched and pushed together, and what of that cloth bears; null until the shape is found. */
   reach: EdgeReach | null;
 }
 

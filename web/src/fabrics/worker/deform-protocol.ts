@@ -61,7 +61,7 @@ export interface FittedMessage {
 }
 
 /** The section "cloth" of a scene, and the places from which a pane's shape starts. */
-export interface SectionMessage extends StartShape {
+export interface SectionMessage extends Omit<StartShape, 'name'> {
   type: 'section';
 }
 

@@ -2,6 +2,7 @@
 
 import type { Triple } from '../../shared/bindings/geometry';
 import type { ObjAnswer } from '../../shared/bindings/pleat-module';
+import type { StartShape } from '../../shared/page/view';
 import type { ObjUnit } from '../../shared/state/obj-file';
 import { boxOf, minus } from '../../shared/state/vectors';
 
@@ -12,7 +13,7 @@ export type Hold = 'highest' | 'nothing' | `group:${string}`;
 export type Threads = 'texture' | 'down' | 'along_x';
 
 export interface ObjMesh {
-  /** Name of the file. */
+  /** Name of the file, or words on what it is. */
   name: string;
   /** Brought by the visitor; else it is the page's example. */
   isOwn: boolean;
@@ -100,13 +101,13 @@ export function objScene(mesh: ObjMesh, hold: Hold) {
   };
 }
 
-/** A cloth that starts from the shape that it was pulled into; what held it is its group "held". */
-export function deformedMesh(section: object, start: Float64Array): ObjMesh {
+/** A cloth that starts from a shape between rest and what it was pulled into; what held it is its group "held". */
+export function deformedMesh({ name, section, positions: start }: StartShape): ObjMesh {
   const { mesh } = section as {
     mesh: { positions_m: Triple[]; triangles: unknown[]; groups?: object };
   };
   return {
-    name: 'The pulled cloth',
+    name,
     isOwn: true,
     unit: 'm',
     odd: null,

@@ -13,6 +13,8 @@ export interface View {
 
 /** The cloth and the places that a motion starts from. */
 export interface StartShape {
+  /** Words on what it is. */
+  name: string;
   /** The section "cloth" of a scene; what was held is its group "held". */
   section: object;
   positions: Float64Array;

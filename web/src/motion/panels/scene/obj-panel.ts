@@ -36,7 +36,7 @@ export function sentences(mesh: ObjMesh): string {
   if (nTriangles > MANY_TRIANGLES) parts.push('So many triangles will be slow.');
   if (start)
     parts.push(
-      'It starts from the shape it was pulled into at level 0; finer levels have vertices that this shape has not, and start from rest.',
+      'It starts from this shape at level 0; finer levels have vertices that this shape has not, and start from rest.',
     );
   if (isOwn)
     parts.push('It stays on this machine, and no link carries it: a reload shows the skirt.');
