@@ -18,7 +18,7 @@ import { createCaseList } from './panels/case-list';
 import { createCaseStory } from './panels/case-story';
 import { createDuelTools } from './panels/duel-tools';
 import { createSideBadges } from './panels/side-badges';
-import { signsOf } from './panels/sign-words';
+import { spokenSign } from './panels/sign-words';
 import { Duel, type DuelView } from './run/duel';
 import { createDuelStage, type DuelStage } from './stage/duel-stage';
 import { decodeFailuresLink, encodeFailuresLink } from './state/failures-link';
@@ -29,13 +29,6 @@ const LEAST_PANE_WIDTH = 240;
 
 /** The cloth of all cases has one colour, whatever it is made of. */
 const SHOWN_FABRIC = 'fine cotton';
-
-/** Says when a sign is first seen. */
-function sentenceFor(state: FailuresState, previous: FailuresState): string | null {
-  const [now] = signsOf(state, 'naive');
-  const [before] = signsOf(previous, 'naive');
-  return now && !before ? `Naive: ${now.title}. ${now.sentence}` : null;
-}
 
 /** Who only looks sees the first case when it has failed [s]. */
 const FIRST_SHOWN_S = 1;
@@ -133,7 +126,7 @@ export function createFailuresView(root: HTMLElement, hash: string): View {
   });
   if (!first.isNamed) void duel.showAt(FIRST_SHOWN_S);
   createFailureBanner(messages, store, () => duel.retry());
-  createAnnouncer(messages, store, sentenceFor);
+  createAnnouncer(messages, store, spokenSign);
   createSideBadges(badges, store);
   createDuelTools(toolBox, store, duel, picture.homeView);
   createCaseList(panel, store);

@@ -1,8 +1,10 @@
 // Both sides of a case, played through the real core.
 import { describe, expect, it } from 'vitest';
+import { spokenSign } from '../../src/failures/panels/sign-words';
 import { Duel, type DuelView } from '../../src/failures/run/duel';
 import { caseNamed } from '../../src/failures/state/failure-cases';
 import { type FailuresState, initialFailuresState } from '../../src/failures/state/failures-state';
+import { inputFailure } from '../../src/shared/bindings/answers';
 import { frameViews } from '../../src/shared/bindings/frame';
 import type { PleatModule } from '../../src/shared/bindings/pleat-module';
 import { createStore } from '../../src/shared/state/store';
@@ -113,6 +115,29 @@ describe('a duel', () => {
     const { timeS, sides } = await until(({ phase }) => phase === 'ready');
     expect(timeS).toBe(0);
     expect(sides.naive.warnings).toEqual([]);
+  });
+
+  it('says nothing of a case that is shown no more, from the moment of the change on', {
+    timeout: 30000,
+  }, async () => {
+    const module = await loadFirst();
+    const { duel, store, until } = createDuel(module, 'rest_on_a_ball');
+    let said = '';
+    store.subscribe((state, previous) => {
+      said = spokenSign(state, previous) ?? said;
+    });
+    await until(({ phase }) => phase === 'ready');
+    duel.play();
+    await until(({ sides }) => sides.naive.warnings.length > 0);
+    expect(said).toMatch(/^Naive: stretched beyond its load\. /);
+    store.set({ problem: inputFailure('of the case before') });
+    store.set({ caseId: 'fast_groove' });
+    const { sides, timeS, problem } = store.get();
+    expect([sides.naive.warnings, sides.naive.measured, timeS]).toEqual([[], null, 0]);
+    expect(problem).toBeNull();
+    expect(said).toBe('');
+    await until(({ phase }) => phase === 'ready');
+    expect(said).toBe('');
   });
 
   it('goes on beyond its end for a hand, which pulls the cloth of its pane alone', async () => {

@@ -57,3 +57,11 @@ export function mainSignOf(state: FailuresState, side: Side): ShownSign | undefi
   const { sign } = caseNamed(state.caseId);
   return signs.find((one) => one.sign === sign) ?? signs[0];
 }
+
+/** Sentence for a screen reader: a sign when it is first seen, empty once it is of what was shown before; null for neither. */
+export function spokenSign(state: FailuresState, previous: FailuresState): string | null {
+  const [now] = signsOf(state, 'naive');
+  const [before] = signsOf(previous, 'naive');
+  if (now && !before) return `Naive: ${now.title}. ${now.sentence}`;
+  return before && !now ? '' : null;
+}
