@@ -12,7 +12,7 @@ import {
 import { MIDDLE } from '../../src/failures/state/failure-scenes';
 import type { RunNumbers } from '../../src/shared/bindings/pleat-module';
 import type { RunWarning } from '../../src/shared/bindings/run-warning';
-import { fabricsText } from '../../src/shared/fabric/fabric-data';
+import { type FabricQuantity, fabricNamed, fabricsText } from '../../src/shared/fabric/fabric-data';
 import { CASE_OF } from '../../src/shared/panels/why-link';
 import { loadFirst } from '../support/built-module';
 
@@ -182,6 +182,37 @@ describe('words of a case', () => {
     expect(caseNamed('long_step').naive.words).toBe(
       `Explicit, 10 substeps where ${enough} are stable`,
     );
+  });
+
+  it('say how stiff the cloth is beside canvas, in every way', () => {
+    const { lesson, scene } = caseNamed('hundredfold_stiffness');
+    expect(lesson).toContain('a hundred times the stiffness of canvas');
+    const { overrides } = scene.fabric as { overrides: Record<FabricQuantity, number> };
+    const canvas = fabricNamed('canvas');
+    for (const key of Object.keys(overrides) as FabricQuantity[])
+      expect(overrides[key] / canvas[key].value, key).toBeCloseTo(100, 9);
+    expect(Object.keys(overrides)).toHaveLength(5);
+    expect(caseNamed('stiff_in_one_substep').scene).toBe(scene);
+  });
+
+  it('say how far the cloth flies in a step, and how fast the wind blows', () => {
+    const { cloth } = caseNamed('fast_groove').scene as {
+      cloth: { sheet: { initial_velocity_m_per_s: number[] } };
+    };
+    const speed = Math.hypot(...cloth.sheet.initial_velocity_m_per_s);
+    expect(speed).toBe(30);
+    expect(STEP_S * speed).toBe(0.5);
+    const { world } = caseNamed('flag_in_a_gale').scene as {
+      world: { air: { wind: { velocity_m_per_s: number[] } } };
+    };
+    expect(Math.hypot(...world.air.wind.velocity_m_per_s)).toBeCloseTo(14, 0);
+  });
+
+  it('say that the gale pulls at silk with many times its weight', () => {
+    // Drag of a flag across the wind, q times area, bounds the pull; a tenth of that is many weights already.
+    const pressure = 0.5 * 1.2 * 14 ** 2;
+    const weight = 9.81 * fabricNamed('silk').areal_density_kg_per_m2.value;
+    expect(pressure / weight).toBeGreaterThan(100);
   });
 
   it('say what a bead weighs beside its neighbours', () => {

@@ -1,4 +1,5 @@
 // Scenes of the view of failures, without a method: cloth of 24 by 24 cells and more, on which folds are seen.
+import { type FabricQuantity, fabricNamed } from '../../shared/fabric/fabric-data';
 
 type Vector = [number, number, number];
 
@@ -43,19 +44,25 @@ export const SOFT_SWING: Scene = {
   world: { air: AIR },
 };
 
+const STIFFNESSES: readonly FabricQuantity[] = [
+  'stretch_warp_n_per_m',
+  'stretch_weft_n_per_m',
+  'shear_n_per_m',
+  'bend_warp_n_m',
+  'bend_weft_n_m',
+];
+
+/** A fabric with so many times its stiffness. */
+function stiffer(name: string, times: number) {
+  const own = fabricNamed(name);
+  const overrides = Object.fromEntries(STIFFNESSES.map((key) => [key, times * own[key].value]));
+  return { name, overrides };
+}
+
 /** Let go from the horizontal; a hundred times as stiff as canvas. */
 export const STIFF_SWING: Scene = {
   cloth: { sheet: LEVEL },
-  fabric: {
-    name: 'canvas',
-    overrides: {
-      stretch_warp_n_per_m: 1050000,
-      stretch_weft_n_per_m: 800000,
-      shear_n_per_m: 20000,
-      bend_warp_n_m: 0.0045,
-      bend_weft_n_m: 0.0045,
-    },
-  },
+  fabric: stiffer('canvas', 100),
   pins: UPPER_EDGE,
   world: { air: AIR },
 };
