@@ -96,6 +96,12 @@ async function checkStrips(harness) {
           );
           const stage = await canvasOf(page).boundingBox();
           expectThat(boxes.length === 15, `${boxes.length} names`);
+          for (const { words } of boxes)
+            expectThat(/^[a-z ]+~?\d+ mm~?\d+°$/.test(words), `it says: ${words}`);
+          const shown = await page
+            .locator('.strip-name span')
+            .evaluateAll((spans) => spans.filter((span) => span.offsetWidth > 0).length);
+          expectThat(shown === 30, `${shown} of 30 numbers are seen`);
           for (const [place, a] of boxes.entries()) {
             const isInside =
               a.left >= stage.x &&

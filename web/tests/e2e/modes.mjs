@@ -304,6 +304,22 @@ export async function checkModes(harness) {
     (page) => expectInWindow(button(page, 'Play')),
   );
 
+  await checkSizes(
+    'no name of a key is cut',
+    '#view=modes&model=cloth&show=keys',
+    [[390, 844]],
+    async (page, size) => {
+      const cut = await page
+        .locator('.key-mark span')
+        .evaluateAll((names) =>
+          names
+            .filter((name) => name.scrollWidth > name.clientWidth + 1 || name.clientWidth === 0)
+            .map((name) => name.textContent),
+        );
+      expectThat(cut.length === 0, `${cut.join(', ')} at ${size}`);
+    },
+  );
+
   await checkAccess('#view=modes&cells=2', '#modes details');
 
   await checkWidths('#view=modes&cells=2', [

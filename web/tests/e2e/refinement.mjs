@@ -475,6 +475,23 @@ export async function checkRefinement(harness) {
   );
 
   await checkSizes(
+    'a badge tells what a frame costs',
+    '#view=refinement',
+    [
+      [390, 844],
+      [1280, 800],
+    ],
+    async (page, size) => {
+      const costs = await page
+        .locator('.garment-badge .cost')
+        .filter({ visible: true })
+        .allTextContents();
+      const isTold = costs.length >= 2 && costs.every((words) => /^[\d.]+ ms a frame/.test(words));
+      expectThat(isTold, `${costs.join('; ')} at ${size}`);
+    },
+  );
+
+  await checkSizes(
     'no name of a garment or a fabric is cut',
     '#view=refinement',
     WINDOWS,

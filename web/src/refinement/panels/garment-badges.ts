@@ -63,7 +63,7 @@ export function createGarmentBadges(parent: HTMLElement, store: Store<Refinement
   parent.append(control, grid);
   const badges = PANES.map((id) => {
     const count = element('span');
-    const cost = element('span', { class: 'more' });
+    const cost = element('span', { class: 'cost' });
     const error = element('span', { class: id === 'fine' ? 'more' : '' });
     const badge = element(
       'p',
