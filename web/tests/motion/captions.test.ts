@@ -1,54 +1,20 @@
 // What the caption of a scene says is seen in the scene.
-import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { PRESETS } from '../../src/motion/state/setting';
-import type { PleatModule, SimulationHandle } from '../../src/shared/bindings/pleat-module';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { loadFirst } from '../support/built-module';
-
-const ASSETS = new URL('../../../assets/', import.meta.url);
-const textOf = (path: string) => readFileSync(new URL(path, ASSETS), 'utf8');
-const STEPS_PER_SECOND = 60;
-
-interface Scene {
-  caption: string;
-  [part: string]: unknown;
-}
-
-interface Vertex {
-  id: number;
-  x: number;
-  y: number;
-  z: number;
-}
-
-const sceneOf = (name: string) => JSON.parse(textOf(`scenes/${name}.json`)) as Scene;
-
-function verticesOf(simulation: SimulationHandle): Vertex[] {
-  const places = simulation.exactPositions();
-  return Array.from({ length: places.length / 3 }, (_, id) => {
-    const [x = 0, y = 0, z = 0] = places.subarray(3 * id, 3 * id + 3);
-    return { id, x, y, z };
-  });
-}
-
-/** A scene that has begun; `at` runs on to a time and gives the vertices there [s]. */
-function begin(module: PleatModule, scene: object) {
-  const simulation = new module.Simulation(fabricsText);
-  expect(JSON.parse(simulation.load(JSON.stringify(scene)))).toMatchObject({ ok: true });
-  const rest = verticesOf(simulation);
-  let nDone = 0;
-  return {
-    simulation,
-    rest,
-    at(time: number): Vertex[] {
-      const nSteps = Math.round(time * STEPS_PER_SECOND);
-      expect(simulation.step(nSteps - nDone)).toBe(0);
-      nDone = nSteps;
-      return verticesOf(simulation);
-    },
-  };
-}
+import {
+  begin,
+  isNear,
+  mean,
+  STEPS_PER_SECOND,
+  sceneOf,
+  span,
+  textOf,
+  those,
+  type Vertex,
+  verticesOf,
+} from '../support/scene-run';
 
 /** How many vertices hang together, the largest part first. */
 function partsOf(triangles: Uint32Array, nVertices: number): number[] {
@@ -63,15 +29,6 @@ function partsOf(triangles: Uint32Array, nVertices: number): number[] {
   const sizes = new Map<number, number>();
   for (let v = 0; v < nVertices; ++v) sizes.set(root(v), (sizes.get(root(v)) ?? 0) + 1);
   return [...sizes.values()].sort((a, b) => b - a);
-}
-
-const mean = (values: number[]) => values.reduce((sum, value) => sum + value, 0) / values.length;
-const span = (values: number[]) => Math.max(...values) - Math.min(...values);
-const isNear = (a: number, b: number) => Math.abs(a - b) < 1e-6;
-
-/** The vertices that satisfy `test` at rest, as they are in `now`. */
-function those(rest: Vertex[], now: Vertex[], test: (vertex: Vertex) => boolean): Vertex[] {
-  return rest.filter(test).map(({ id }) => now[id] as Vertex);
 }
 
 /** How often a curve turns between ups and downs higher than `least`. */
