@@ -7,6 +7,7 @@ import { initialMotionState } from '../../src/motion/state/motion-state';
 import { presetSetting } from '../../src/motion/state/setting';
 import type { RunNumbers } from '../../src/shared/bindings/pleat-module';
 import type { RunWarning } from '../../src/shared/bindings/run-warning';
+import { warningSentence } from '../../src/shared/panels/warning-words';
 import { createStore } from '../../src/shared/state/store';
 import { aWarning, type Behaviour, type Method, trialWorkers } from '../support/trial-worker';
 
@@ -99,13 +100,49 @@ describe('a warning', () => {
     store.set({ problem: null });
   });
 
-  it('helps a run that has ended too, beside the words on its end', async () => {
+  it('tells the worst value so far, and goes on trying what helps', async () => {
+    const { store, problem, alive, tried } = open(holds);
+    const grown = (value: number) =>
+      numbers({ ...aWarning, value, vertex: 7, hints: { '/method/substeps': 8 } });
+    store.set({ numbers: exploded, playing: false });
+    store.set({ numbers: grown(1.2) });
+    expect(problem()?.sentence).toMatch(/^The run has exploded: .* by up to 120 %/);
+    store.set({ numbers: grown(2.4) });
+    expect(problem()).toMatchObject({ vertex: 2, help: 'Trying what helps…' });
+    expect(problem()?.sentence).toMatch(/ by up to 240 %/);
+    expect(alive()).toBe(1);
+    await vi.waitUntil(() => problem()?.remedy, PATIENCE_MS);
+    expect(problem()?.sentence).toMatch(/ by up to 240 %/);
+    expect(tried.map(({ substeps }) => substeps).slice(0, 2)).toEqual([30, 8]);
+    store.set({ problem: null });
+  });
+
+  it('is told anew at most once a second while it grows, and at once when the run stands', () => {
+    const now = vi.spyOn(performance, 'now');
     const { store, problem } = open(holds);
+    const told = new Set<string | undefined>();
+    const grow = (ms: number, value: number) => {
+      now.mockReturnValue(ms);
+      store.set({ numbers: numbers({ ...aWarning, value }) });
+      told.add(problem()?.sentence);
+    };
+    for (let look = 0; look <= 10; ++look) grow(5000 + 200 * look, 1 + look / 10);
+    expect(told.size).toBe(3);
+    grow(7100, 2.1);
+    expect(told.size).toBe(3);
+    store.set({ playing: false });
+    expect(problem()?.sentence).toBe(warningSentence({ ...aWarning, value: 2.1 }));
+    store.set({ problem: null });
+  });
+
+  it('helps a run that has ended too, beside the words on its end', async () => {
+    const { store, problem, nStarted } = open(holds);
     store.set({ numbers: exploded });
     const end = { source: 'run', sentence: 'The run stopped in step 31.' } as const;
     store.set({ phase: 'stopped', playing: false, problem: end });
     await vi.waitUntil(() => problem()?.remedy, PATIENCE_MS);
     expect(problem()).toMatchObject({ ...end, vertex: 2 });
+    expect(nStarted()).toBe(1);
   });
 });
 

@@ -55,12 +55,14 @@ function moduleOf(behaviourOf: (method: Method) => Behaviour, tried: Method[]): 
   return { ...module, Simulation };
 }
 
-/** What starts such workers, the methods that they were given, and how many of them live. */
+/** What starts such workers, the methods that they were given, and how many of them live and were started. */
 export function trialWorkers(behaviourOf: (method: Method) => Behaviour) {
   const tried: Method[] = [];
   let nAlive = 0;
+  let nStarted = 0;
   const start: StartMotion = (listener) => {
     nAlive += 1;
+    nStarted += 1;
     const port = workerPort<ToMotion, FromMotion>((post) => {
       const core = new MotionCore(moduleOf(behaviourOf, tried), post);
       return { receive: (message) => core.receive(message), close: () => core.close() };
@@ -74,5 +76,5 @@ export function trialWorkers(behaviourOf: (method: Method) => Behaviour) {
     };
     return createAsked(port, listener);
   };
-  return { start, tried, alive: () => nAlive };
+  return { start, tried, alive: () => nAlive, nStarted: () => nStarted };
 }

@@ -12,6 +12,9 @@ import { cheapest, meanStepMs, type Tried, tryChanges } from './remedy-trial';
 
 const SEEKING = 'Trying what helps…';
 
+/** A told sentence follows its warning this often while the run goes on [ms]: screen readers say each anew. */
+const RENEW_EVERY_MS = 1000;
+
 /** No change of a setting is held against what a hand did. */
 const PULLED = 'A hand has pulled this cloth: reset it to see what the run does by itself.';
 
@@ -67,7 +70,8 @@ export function tellWarnings(
   start: StartMotion = startMotionWorker,
 ): void {
   const told = new Set<RunWarning['kind']>();
-  let seeking: { problem: Problem; setting: Setting; end: AbortController } | null = null;
+  let seeking: { kind: RunWarning['kind']; setting: Setting; end: AbortController } | null = null;
+  let toldMs = 0; // when the shown sentence was told
 
   const present = (kind: RunWarning['kind']): RunWarning | undefined =>
     store.get().numbers?.warnings.find((warning) => warning.kind === kind);
@@ -76,24 +80,48 @@ export function tellWarnings(
     return changesFor(present(warning.kind) ?? warning, store.get().setting);
   }
 
+  /** True while changes are tried for a warning of this kind in the shown setting. */
+  function isSought(kind: RunWarning['kind'] | undefined): boolean {
+    return seeking !== null && seeking.kind === kind && seeking.setting === store.get().setting;
+  }
+
+  function giveUp(): void {
+    seeking?.end.abort();
+    seeking = null;
+  }
+
   /** Shows a problem with this warning, and then with what helps. */
   async function seek(warning: RunWarning, sentence: string, source: Problem['source']) {
     const { kind } = warning;
     const vertex = PLACED.includes(kind) ? { vertex: warning.vertex } : {};
     const problem: Problem = { source, warning: kind, sentence, ...vertex, help: SEEKING };
     const { setting, mesh, numbers, astray } = store.get();
-    seeking?.end.abort();
-    seeking = null;
+    toldMs = performance.now();
+    if (isSought(kind)) return store.set({ problem });
+    giveUp();
     if (astray === 'pulled') return store.set({ problem: { ...problem, help: PULLED } });
     const end = new AbortController();
-    seeking = { problem, setting, end };
+    seeking = { kind, setting, end };
     store.set({ problem });
     const question = { changes: () => changes(warning), mesh, warning };
     const tried = await tryChanges(start, question, end.signal);
     if (!tried) return;
     seeking = null;
     const now = { ms: numbers ? meanStepMs(numbers) : Number.NaN, stepS: setting.stepS };
-    store.set({ problem: { ...problem, ...answerTo(tried, now) } });
+    const { problem: shown } = store.get();
+    if (shown) store.set({ problem: { ...shown, ...answerTo(tried, now) } });
+  }
+
+  /** Has the shown sentence tell the worst so far; where it was first seen stays marked. */
+  function renew({ problem, playing }: MotionState): void {
+    const { warning, source } = problem ?? {};
+    const now = source === 'setting' && warning && present(warning);
+    if (!problem || !now) return;
+    const sentence = warningSentence(now);
+    const isDue = !playing || performance.now() - toldMs >= RENEW_EVERY_MS;
+    if (sentence === problem.sentence || !isDue) return;
+    toldMs = performance.now();
+    store.set({ problem: { ...problem, sentence } });
   }
 
   /** Tells the worst that is new, unless nonsense is told of already. */
@@ -110,14 +138,12 @@ export function tellWarnings(
   }
 
   watch(store, ['numbers'], ({ numbers }) => hear(numbers));
-  watch(store, ['problem', 'setting', 'phase'], ({ problem, setting, phase, numbers }) => {
-    if (seeking && (seeking.problem !== problem || seeking.setting !== setting)) {
-      seeking.end.abort();
-      seeking = null;
-    }
+  watch(store, ['numbers', 'playing'], renew);
+  watch(store, ['problem', 'setting', 'phase'], ({ problem, phase, numbers }) => {
     // A run that ended ends with words of its own; what it was warned of says what may help.
     const [worst] = numbers?.warnings ?? [];
     if (phase === 'stopped' && worst && problem?.source === 'run' && problem.help === undefined)
-      void seek(worst, problem.sentence, 'run');
+      return void seek(worst, problem.sentence, 'run');
+    if (!isSought(problem?.warning)) giveUp();
   });
 }
