@@ -243,6 +243,28 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     expect(take('loaded').numbers.time_s).toBe(0);
   });
 
+  it('counts the steps that a run took to its time, in whatever setting they were', async () => {
+    const { send, take, loaded } = open(await load());
+    const step = (count: number, buffer: ArrayBuffer) => {
+      send({ type: 'step', count, wantsNumbers: true, buffer });
+      return take('frame').report?.numbers;
+    };
+    step(6, loaded.buffers[1]);
+    const change = (patch: Partial<Setting>) => {
+      send({ type: 'load', sceneText: sceneText(patch), keepMotion: true });
+      return take('loaded');
+    };
+    const carried = change({ substeps: 3 });
+    expect(carried.numbers.step).toBe(6);
+    expect(carried.numbers.time_s).toBeCloseTo(6 / 60, 9);
+    const later = step(3, carried.buffers[1]);
+    expect(later?.step).toBe(9);
+    expect(later?.time_s).toBeCloseTo(9 / 60, 9);
+    expect(change({ level: 2 }).numbers.step).toBe(9);
+    send({ type: 'reset' });
+    expect(take('loaded').numbers).toMatchObject({ step: 0, time_s: 0 });
+  });
+
   it('is back at the first frame after a reset', async () => {
     const { send, take, loaded } = open(await load());
     send({ type: 'step', count: 9, wantsNumbers: false, buffer: loaded.buffers[1] });
@@ -361,6 +383,19 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     expect(frameViews(whole.buffers[0]).scalar.length).toBe(summary.n_vertices);
   });
 
+  it('counts steps of another length beside those before', async () => {
+    if (_name === 'the stand-in') return; // its steps are all alike
+    const { send, take, loaded } = open(await load());
+    send({ type: 'step', count: 6, wantsNumbers: false, buffer: loaded.buffers[1] });
+    take('frame');
+    send({ type: 'load', sceneText: sceneText({ stepS: 1 / 240 }), keepMotion: true });
+    const { buffers } = take('loaded');
+    send({ type: 'step', count: 4, wantsNumbers: true, buffer: buffers[1] });
+    const numbers = take('frame').report?.numbers;
+    expect(numbers?.step).toBe(10);
+    expect(numbers?.time_s).toBeCloseTo(6 / 60 + 4 / 240, 9);
+  });
+
   it('begins torn cloth anew in another fabric', async () => {
     if (_name === 'the stand-in') return;
     const { send, take } = open(await load());
@@ -372,7 +407,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     expect(take('frame').torn).not.toBeNull();
     const silk = JSON.stringify(sceneOf({ ...torn, fabric: 'silk' }));
     send({ type: 'load', sceneText: silk, keepMotion: true });
-    expect(take('loaded').numbers.time_s).toBe(0);
+    expect(take('loaded').numbers).toMatchObject({ step: 0, time_s: 0 });
   });
 
   it('measures a small sweep: every row with speed, error and reference', async () => {

@@ -55,7 +55,8 @@ class FakeSimulation implements SimulationHandle {
   private side = 0;
   private scene: FakeScene | null = null;
   private x = new Float32Array(0);
-  private steps = 0;
+  private beginS = 0; // when it went on from another scene
+  private steps = 0; // since then
   private held: number | null = null;
   private ended = false;
   private pulled = false;
@@ -109,10 +110,12 @@ class FakeSimulation implements SimulationHandle {
     return this.summary();
   }
 
+  private timeS = () => this.beginS + this.steps / 60;
+
   carryOver(text: string): string {
-    const steps = this.steps;
+    const timeS = this.timeS();
     const answer = this.load(text);
-    this.steps = steps;
+    this.beginS = timeS;
     if (this.ledgerFrom !== null) this.openLedger();
     return answer;
   }
@@ -124,6 +127,7 @@ class FakeSimulation implements SimulationHandle {
   }
 
   reset(): string {
+    this.beginS = 0;
     this.steps = 0;
     if (this.ledgerFrom !== null) this.openLedger();
     this.pulled = false;
@@ -159,7 +163,7 @@ class FakeSimulation implements SimulationHandle {
 
   numbers(): string {
     return ok({
-      time_s: this.steps / 60,
+      time_s: this.timeS(),
       step: this.steps,
       largest_stretch: 0.01,
       rms_stretch: 0.004,
@@ -184,7 +188,7 @@ class FakeSimulation implements SimulationHandle {
   private compare() {
     if (!this.reference || !this.matches()) return null;
     const { end_s, uncertainty_m } = this.reference;
-    const isKnown = this.steps / 60 <= end_s && !this.pulled;
+    const isKnown = this.timeS() <= end_s && !this.pulled;
     return {
       distance_m: isKnown ? 0.012 : null,
       uncertainty_m: isKnown ? uncertainty_m : null,
@@ -232,7 +236,7 @@ class FakeSimulation implements SimulationHandle {
     if (this.ledgerFrom === null) return new Float64Array(0);
     const fallen = 0.01 * (this.steps - this.ledgerFrom);
     const held = [0.75 * fallen, 0, 0 - fallen];
-    return Float64Array.from([this.steps / 60, ...held, 0 - 0.25 * fallen, 0, 0, 0, 0, 0, 0]);
+    return Float64Array.from([this.timeS(), ...held, 0 - 0.25 * fallen, 0, 0, 0, 0, 0, 0]);
   }
 
   /** Two springs, of which imex has one implicit; the other one while a hand holds the cloth. */

@@ -35,18 +35,6 @@ function fill(simulation: SimulationHandle, buffer: ArrayBuffer, scalar: Scalar)
   else views.scalar.fill(Number.NaN);
 }
 
-function readNumbers(simulation: SimulationHandle): RunNumbers | null {
-  const numbers = read<RunNumbers>(simulation.numbers());
-  return numbers.ok ? numbers : null;
-}
-
-function readReport(simulation: SimulationHandle): RunReport | null {
-  const numbers = readNumbers(simulation);
-  const status = read<RunStatus>(simulation.status());
-  if (!numbers || !status.ok) return null;
-  return { numbers, status: status.status, message: status.message };
-}
-
 function readEnergy(simulation: SimulationHandle): EnergyNumbers | null {
   const values = simulation.energies();
   if (values.length === 0) return null;
@@ -71,6 +59,20 @@ export class MotionCore extends ModuleCore<PleatModule, ToMotion, FromMotion> {
   private isHeld = false;
   private hasLedger = false;
   private nBytes = 0; // size of the buffers of frames
+  private nStepsBefore = 0; // steps of the run until it took its present setting
+
+  /** Numbers whose steps are those that the run took to its time, whatever their length. */
+  private readNumbers(run: SimulationHandle): RunNumbers | null {
+    const numbers = read<RunNumbers>(run.numbers());
+    return numbers.ok ? { ...numbers, step: this.nStepsBefore + numbers.step } : null;
+  }
+
+  private readReport(run: SimulationHandle): RunReport | null {
+    const numbers = this.readNumbers(run);
+    const status = read<RunStatus>(run.status());
+    if (!numbers || !status.ok) return null;
+    return { numbers, status: status.status, message: status.message };
+  }
 
   /** Sends everything the page draws from, with two fresh buffers, the first one filled. */
   private postLoaded(
@@ -78,7 +80,7 @@ export class MotionCore extends ModuleCore<PleatModule, ToMotion, FromMotion> {
     run: SimulationHandle,
     summary: SceneSummary,
   ): void {
-    const numbers = readNumbers(run);
+    const numbers = this.readNumbers(run);
     if (!numbers) throw new Error('no numbers after a load');
     this.nBytes = frameBytes(run);
     const buffers: [ArrayBuffer, ArrayBuffer] = [
@@ -96,9 +98,13 @@ export class MotionCore extends ModuleCore<PleatModule, ToMotion, FromMotion> {
 
   private load(run: SimulationHandle, message: LoadMessage): void {
     const { sceneText, keepMotion, start } = message;
-    const text = keepMotion && this.loaded ? run.carryOver(sceneText) : run.load(sceneText);
+    const isKept = keepMotion && this.loaded !== null;
+    const nSteps = isKept ? this.readNumbers(run)?.step : 0;
+    const text = isKept ? run.carryOver(sceneText) : run.load(sceneText);
     const { summary } = granted<{ summary: SceneSummary }>(text);
     if (start) granted(run.startFrom(start));
+    const isOnItsWay = Number(this.readNumbers(run)?.time_s) > 0; // torn cloth begins anew
+    this.nStepsBefore = (isOnItsWay && nSteps) || 0;
     this.loaded = summary;
     this.postLoaded(message, run, this.loaded);
   }
@@ -106,13 +112,14 @@ export class MotionCore extends ModuleCore<PleatModule, ToMotion, FromMotion> {
   private reset(run: SimulationHandle, message: Extract<ToMotion, { type: 'reset' }>): void {
     if (!this.loaded) throw new Error('reset before load');
     granted(run.reset());
+    this.nStepsBefore = 0;
     this.postLoaded(message, run, this.loaded);
   }
 
   /** One that cannot be read is none: the page goes without. */
   private setReference(run: SimulationHandle, bytes: ArrayBuffer): void {
     const answer = read<object>(run.setReference(new Uint8Array(bytes)));
-    const numbers = answer.ok && this.loaded ? readNumbers(run) : null;
+    const numbers = answer.ok && this.loaded ? this.readNumbers(run) : null;
     if (numbers) this.post({ type: 'referenceSet', numbers }, []);
   }
 
@@ -136,7 +143,7 @@ export class MotionCore extends ModuleCore<PleatModule, ToMotion, FromMotion> {
     const [buffer, torn] = this.buffersFor(run, message.buffer);
     fill(run, buffer, scalar);
     const hasEnded = code !== 0;
-    const report = hasEnded || message.wantsNumbers ? readReport(run) : null;
+    const report = hasEnded || message.wantsNumbers ? this.readReport(run) : null;
     const energy = readEnergy(run);
     const colliders = readColliders(run);
     this.post(

@@ -120,7 +120,7 @@ function stepperNeed(stepper: string, setting: Setting): string | null {
 
 /** Share of the last step's equations that is left unsolved, by a method that has any. */
 function leftWords({ numbers, setting, isCutShort }: MotionState): string {
-  if (!numbers?.step || !stepperRow(setting.stepper).solves) return '';
+  if (!numbers?.iterations || !stepperRow(setting.stepper).solves) return '';
   const { residual, iterations } = numbers;
   const end = isCutShort ? 'cut short after' : 'after';
   return `Left unsolved: ${percent(residual)}, ${end} ${iterations} iterations.`;

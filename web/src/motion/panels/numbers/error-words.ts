@@ -65,8 +65,9 @@ function fromReference(reference: ReferenceNumbers, isOwnMesh: boolean): ErrorWo
 /** The error as far as it is known without a reference: the equations' residual and the stretch. */
 function fromItself(numbers: RunNumbers, solves: boolean): string {
   const parts = ['How wrong this is, nobody has measured.'];
-  if (numbers.step === 0) return parts.join(' ');
-  const { residual, largest_stretch } = numbers;
+  const { step, iterations, residual, largest_stretch } = numbers;
+  const isReported = !solves || iterations > 0 || residual > 0;
+  if (step === 0 || !isReported) return parts.join(' ');
   const within = residual < EXACT_RESIDUAL ? 'exactly' : `to ${percent(residual)}`;
   parts.push(solves ? `The sums are right ${within};` : 'The method has no sums to check;');
   parts.push(`threads are stretched by ${percent(largest_stretch)} at most.`);
