@@ -28,7 +28,7 @@ const kExplosions = [
 ];
 
 const kToldS = 2.5; // by then each is told [s of motion]
-const kHealedS = 4; // as long is a remedy watched [s of motion]
+const kHealedS = 4; // as long is a remedy watched, from where it begins [s of motion]
 const kPatienceMs = 120000;
 const kSpeed = 8; // seconds of motion a second, at most
 
@@ -68,7 +68,15 @@ async function visit(link) {
   const store = createStore({ ...initialMotionState(read, []), speed: kSpeed });
   const run = new MotionRun(store, { showMesh() {}, showFrame() {} }, start);
   tellWarnings(store, run, start);
-  const row = { link, status: 'ok', told: null, offered: null, healed: false, left: null };
+  const row = {
+    link,
+    status: 'ok',
+    told: null,
+    offered: null,
+    begin_s: null,
+    healed: false,
+    left: null,
+  };
   await until(store, ({ phase }) => phase === 'ready');
   run.play();
   const told = await until(
@@ -83,11 +91,14 @@ async function visit(link) {
     row.offered = remedy?.title ?? help ?? null;
     if (remedy) {
       run.take(remedy);
-      await until(store, ({ phase, numbers }) => phase === 'ready' && numbers.step === 0);
+      const begun = await until(store, ({ phase }) => phase === 'ready');
+      row.begin_s = begun?.numbers.time_s ?? null;
       const after = await until(
         store,
         ({ problem, numbers, phase }) =>
-          problem !== null || phase === 'stopped' || numbers.time_s >= kHealedS,
+          problem !== null ||
+          phase === 'stopped' ||
+          numbers.time_s >= (row.begin_s ?? 0) + kHealedS,
       );
       row.left = after?.problem?.warning ?? after?.problem?.sentence ?? null;
       row.healed = after !== null && after.problem === null && after.phase === 'ready';

@@ -361,13 +361,15 @@ async function checkRefused({ check, open }) {
       await until(page, (state) => state.problem.remedy);
       const told = await alertText(page);
       expectThat(/would do|does not hold/.test(told), told);
-      await button(page, /^Start again with .+: [\d.]+ m?s a step, now [\d.]+ m?s$/).click();
-      const anew = await until(
-        page,
-        ({ phase, numbers: now }) => phase === 'ready' && now.step > 0,
-      );
-      expectThat(anew.playing, 'it stands still');
-      expectThat(anew.numbers.time_s < numbers.time_s + 0.3, `from ${anew.numbers.time_s} s on`);
+      const offered = /^Go on from ([\d.]+) s with .+: [\d.]+ m?s a step, now [\d.]+ m?s$/;
+      const [, fromS] = offered.exec(await button(page, offered).textContent());
+      const [{ time_s: wrongS }] = numbers.warnings;
+      expectThat(fromS > 0 && fromS < wrongS, `from ${fromS} s, wrong from ${wrongS} s on`);
+      await button(page, offered).click();
+      const mended = await until(page, ({ phase }) => phase === 'ready');
+      expectThat(mended.playing, 'it stands still');
+      const { time_s } = mended.numbers;
+      expectThat(time_s >= fromS - 0.01 && time_s < wrongS + 1, `it is at ${time_s} s`);
       expectThat(!(await ring.isVisible()), 'the ring is still there');
       const healed = await until(page, (state) => state.problem || state.numbers.time_s > 2);
       expectThat(healed.problem === null, `it still says: ${healed.problem?.sentence}`);

@@ -2,6 +2,7 @@
 import { afterEach, describe, expect, it, vi } from 'vitest';
 import { changesFor } from '../../src/motion/run/remedy-changes';
 import { cheapest, type Tried, tryChanges } from '../../src/motion/run/remedy-trial';
+import type { Leg } from '../../src/motion/state/motion-state';
 import { presetSetting, type Setting } from '../../src/motion/state/setting';
 import { aWarning, type Behaviour, type Method, trialWorkers } from '../support/trial-worker';
 
@@ -21,11 +22,13 @@ function tryWith(
   behaviourOf: (method: Method) => Behaviour,
   signal = new AbortController().signal,
   given: Record<string, unknown> = hints,
+  course: readonly Leg[] = [],
 ) {
   const workers = trialWorkers(behaviourOf);
   const question = {
     changes: () => changesFor({ hints: given }, setting),
     mesh: null,
+    course,
     warning: aWarning,
   };
   return { ...workers, tried: workers.tried, answer: tryChanges(workers.start, question, signal) };
@@ -77,6 +80,50 @@ describe('a trial of changes', () => {
     const { answer, tried } = tryWith(behaviourOf, undefined, growing);
     expect(ends(await answer)?.slice(0, 2)).toEqual(['fails', 'holds']);
     expect(tried.map(substepsOf).slice(0, 2)).toEqual(['xpbd 30 1', 'xpbd 64 1']);
+  });
+
+  describe('of a run whose course is known', () => {
+    const leg = { setting, mesh: null, fromStep: 0 };
+    const best = async (behaviourOf: (method: Method) => Behaviour, course: readonly Leg[]) => {
+      const { answer, alive } = tryWith(behaviourOf, undefined, hints, course);
+      const found = cheapest((await answer) ?? []);
+      expect(alive()).toBe(0);
+      return found?.from;
+    };
+    /** The run's own method is warned of at 0.4 s. */
+    const mended = ({ substeps = 0 }: Method): Behaviour =>
+      substeps < 30 ? { stepMs: 1, warnedS: 0.4 } : { stepMs: 1 };
+
+    it('goes on a tenth of a second before what was wrong', async () => {
+      const from = await best(mended, [leg]);
+      expect(from).toMatchObject({ course: [leg], step: 18 });
+      expect(from).toHaveProperty('time_s', expect.closeTo(0.3, 9));
+    });
+
+    it('goes on from before the setting that was wrong at once', async () => {
+      const calm = { ...leg, setting: { ...setting, substeps: 40 } };
+      const from = await best(mended, [calm, { ...leg, fromStep: 20 }]);
+      expect(from).toMatchObject({ course: [calm], step: 20 });
+    });
+
+    it('goes on from an earlier setting where the later one was stretched at once', async () => {
+      const calm = { ...leg, setting: { ...setting, substeps: 40 } };
+      const stretched = (method: Method) => ({
+        ...mended(method),
+        ...(Number(method.substeps) < 30 && { stretch: 0.11 }),
+      });
+      const from = await best(stretched, [calm, { ...leg, fromStep: 12 }]);
+      expect(from).toMatchObject({ course: [calm], step: 12 });
+    });
+
+    it('starts anew where each state is stretched, or the change fails on the way', async () => {
+      const stretched = (method: Method) => ({ ...mended(method), stretch: 0.11 });
+      expect(await best(stretched, [leg])).toBe('never sound');
+      const onlyAnew = (method: Method) => ({ ...mended(method), isBadOnTheWay: true });
+      expect(await best(onlyAnew, [leg])).toBe('fails again');
+      const mesh = { ...leg, setting: presetSetting('obj') };
+      expect(await best(mended, [mesh])).toBe('carries nothing');
+    });
   });
 
   it('ends when time is over, and says how far it came', async () => {

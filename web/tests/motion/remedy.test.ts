@@ -1,17 +1,23 @@
 // Changes that may help a run that shows nonsense: their order, and on the real module that they do.
-import { describe, expect, it } from 'vitest';
+import { afterAll, beforeAll, describe, expect, it, vi } from 'vitest';
+import { MotionRun } from '../../src/motion/run/motion-run';
 import { changesFor } from '../../src/motion/run/remedy-changes';
 import { cheapest, tryChanges } from '../../src/motion/run/remedy-trial';
+import { tellWarnings } from '../../src/motion/run/warnings';
+import { decodeMotionLink } from '../../src/motion/state/motion-link';
+import { initialMotionState, type MotionState } from '../../src/motion/state/motion-state';
 import {
   MOST_SUBSTEPS,
   presetSetting,
   type Setting,
   sceneOf,
 } from '../../src/motion/state/setting';
-import type { RunNumbers } from '../../src/shared/bindings/pleat-module';
+import { frameViews } from '../../src/shared/bindings/frame';
+import type { PleatModule, RunNumbers } from '../../src/shared/bindings/pleat-module';
 import type { RunWarning } from '../../src/shared/bindings/run-warning';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { warningSentence } from '../../src/shared/panels/warning-words';
+import { createStore } from '../../src/shared/state/store';
 import { createAsked } from '../../src/shared/workers/asked';
 import type { StartMotion } from '../../src/shared/workers/motion-client';
 import { MotionCore } from '../../src/shared/workers/motion-core';
@@ -96,18 +102,27 @@ describe('words of a warning', () => {
   });
 });
 
+/** Workers in this thread. */
+const startWith =
+  (module: PleatModule): StartMotion =>
+  (listener) =>
+    createAsked(
+      workerPort<ToMotion, FromMotion>((post) => new MotionCore(module, post)),
+      listener,
+    );
+
 describe('the warnings of a run', () => {
   it('tell of an explosion, and what was tried and holds ends it', async () => {
-    const module = await loadFirst();
-    const start: StartMotion = (listener) =>
-      createAsked(
-        workerPort<ToMotion, FromMotion>((post) => new MotionCore(module, post)),
-        listener,
-      );
+    const start = startWith(await loadFirst());
     const [warning] = (await numbersOf(exploding, 1)).warnings;
     expect(warning?.kind).toBe('stretch');
     if (!warning) return;
-    const question = { changes: () => changesFor(warning, exploding), mesh: null, warning };
+    const question = {
+      changes: () => changesFor(warning, exploding),
+      mesh: null,
+      course: [],
+      warning,
+    };
     const tried = await tryChanges(start, question, new AbortController().signal);
     const best = cheapest(tried ?? []);
     expect(best?.stepMs).toBeGreaterThan(0);
@@ -116,5 +131,64 @@ describe('the warnings of a run', () => {
 
   it('are none for the scene as it is shipped', async () => {
     expect((await numbersOf(presetSetting('curtain'), 1)).warnings).toEqual([]);
+  });
+});
+
+describe('a remedy on the page', () => {
+  beforeAll(() => {
+    vi.stubGlobal('requestAnimationFrame', (work: () => void) => setTimeout(work, 1));
+  });
+  afterAll(() => vi.unstubAllGlobals());
+
+  /** Places after so many steps of a setting. */
+  async function placesAt(setting: Setting, steps: number): Promise<Float32Array> {
+    const { Simulation } = await loadFirst();
+    const simulation = new Simulation(fabricsText);
+    simulation.load(JSON.stringify(sceneOf(setting, null)));
+    simulation.step(steps);
+    const places = simulation.positions().slice();
+    simulation.delete();
+    return places;
+  }
+
+  it('goes on from the last sound state before the warning, and heals the run', async () => {
+    const start = startWith(await loadFirst());
+    const { link } = decodeMotionLink('#scene=tablecloth&level=1&stepper=xpbd&substeps=1');
+    const store = createStore(initialMotionState(link, []));
+    const frames: Float32Array[] = [];
+    const view = {
+      showMesh: () => undefined,
+      showFrame: (buffer: ArrayBuffer) => frames.push(frameViews(buffer).positions.slice()),
+    };
+    const run = new MotionRun(store, view, start);
+    tellWarnings(store, run, start);
+    const until = async (test: (state: MotionState) => unknown) => {
+      await vi.waitUntil(() => test(store.get()), { timeout: 60000 });
+      return store.get();
+    };
+    await until(({ phase }) => phase === 'ready');
+    run.play();
+    const { problem, numbers } = await until((state) => state.problem?.remedy);
+    const { remedy } = problem ?? {};
+    const [warning] = numbers?.warnings ?? [];
+    if (!warning || !remedy?.from) throw new Error(`it offers ${remedy?.title ?? problem?.help}`);
+    expect(remedy.title).toMatch(/^Go on from [\d.]+ s with /);
+
+    frames.length = 0;
+    let begin: RunNumbers | null = null;
+    run.take(remedy);
+    const unsubscribe = store.subscribe(({ phase, numbers: first }) => {
+      if (phase === 'ready') begin ??= first;
+    });
+    await until(() => begin !== null);
+    unsubscribe();
+    expect(begin).toMatchObject({ step: remedy.from.step });
+    const { time_s = 0 } = (begin ?? {}) as Partial<RunNumbers>;
+    expect(time_s).toBeGreaterThan(0);
+    expect(time_s).toBeLessThan(warning.time_s - 0.09);
+    expect(frames[0]).toEqual(await placesAt(link.setting, remedy.from.step));
+    const healed = await until((state) => Number(state.numbers?.time_s) > warning.time_s + 1);
+    expect(healed.problem).toBeNull();
+    run.pause();
   });
 });

@@ -21,7 +21,8 @@ const PATIENCE_MS = 20000;
 /** A page that plays a run, and what tells of it. */
 function open(behaviourOf: (method: Method) => Behaviour) {
   const { link } = decodeMotionLink('#scene=swinging-sheet&level=0&stepper=xpbd&substeps=1');
-  const store = createStore({ ...initialMotionState(link, []), playing: true });
+  const course = [{ setting: link.setting, mesh: null, fromStep: 0 }];
+  const store = createStore({ ...initialMotionState(link, []), playing: true, course });
   const workers = trialWorkers(behaviourOf);
   const pause = vi.fn();
   tellWarnings(store, { pause }, workers.start);
@@ -44,9 +45,9 @@ describe('a warning', () => {
     await vi.waitUntil(() => problem()?.remedy, PATIENCE_MS);
     expect(problem()?.help).toBe('The computer looks too rarely: 30 times as often would do.');
     expect(problem()?.remedy).toEqual({
-      title: 'Start again with 30 substeps: 14 ms a step, now 6.0 ms',
+      title: 'Go on from 0.30 s with 30 substeps: 14 ms a step, now 6.0 ms',
       setting: { ...store.get().setting, substeps: 30 },
-      startsAnew: true,
+      from: { course: store.get().course, step: 18 },
     });
   });
 
@@ -143,6 +144,22 @@ describe('a warning', () => {
     await vi.waitUntil(() => problem()?.remedy, PATIENCE_MS);
     expect(problem()).toMatchObject({ ...end, vertex: 2 });
     expect(nStarted()).toBe(1);
+  });
+});
+
+describe('what helps from the start alone', () => {
+  it('starts again, and says why', () => {
+    const change = { setting: presetSetting('curtain'), what: '16 substeps', why: 'Too rarely.' };
+    const tried: Tried = { change, end: 'holds', seenS: 3, stepMs: 14, from: 'never sound' };
+    const cost = { ms: 6, stepS: change.setting.stepS };
+    expect(answerTo([tried], cost)).toEqual({
+      help: 'Too rarely. The run was wrong from its first steps, so it starts again.',
+      remedy: {
+        title: 'Start again with 16 substeps: 14 ms a step, now 6.0 ms',
+        setting: change.setting,
+        startsAnew: true,
+      },
+    });
   });
 });
 

@@ -265,6 +265,30 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     expect(take('loaded').numbers).toMatchObject({ step: 0, time_s: 0 });
   });
 
+  it('goes on from the end of a way, as the run did that took it', async () => {
+    const { send, take, loaded } = open(await load());
+    const carry = (patch: Partial<Setting>) =>
+      send({ type: 'load', sceneText: sceneText(patch), keepMotion: true });
+    const step = (count: number, buffer: ArrayBuffer) => {
+      send({ type: 'step', count, wantsNumbers: true, buffer });
+      return take('frame').buffer;
+    };
+    step(5, loaded.buffers[1]);
+    carry({ substeps: 3 });
+    step(4, take('loaded').buffers[1]);
+    carry({ substeps: 4 });
+    const { buffers, numbers } = take('loaded');
+    step(30, buffers[1]);
+    const way = [
+      { sceneText: sceneText(), steps: 5 },
+      { sceneText: sceneText({ substeps: 3 }), steps: 4 },
+    ];
+    send({ type: 'load', sceneText: sceneText({ substeps: 4 }), keepMotion: true, way });
+    const again = take('loaded');
+    expect(again.numbers).toMatchObject({ step: 9, time_s: numbers.time_s });
+    expect(frameViews(again.buffers[0]).positions).toEqual(frameViews(buffers[0]).positions);
+  });
+
   it('is back at the first frame after a reset', async () => {
     const { send, take, loaded } = open(await load());
     send({ type: 'step', count: 9, wantsNumbers: false, buffer: loaded.buffers[1] });

@@ -19,6 +19,10 @@ export interface Behaviour {
   stepMs: number;
   /** From that time on the run is warned of [s]. */
   warnedS?: number;
+  /** It is warned of whenever it took another run's motion over. */
+  isBadOnTheWay?: boolean;
+  /** Stretch of the cloth at any time [1]. */
+  stretch?: number;
 }
 
 export const aWarning: RunWarning = {
@@ -37,19 +41,34 @@ function moduleOf(behaviourOf: (method: Method) => Behaviour, tried: Method[]): 
   const { module } = createFakeModule();
   class Simulation extends module.Simulation {
     private behaviour: Behaviour = { stepMs: 0 };
+    private isCarried = false;
 
     override load(text: string): string {
       const { method } = JSON.parse(text) as { method: Method };
       tried.push(method);
       this.behaviour = behaviourOf(method);
+      this.isCarried = false;
       return super.load(text);
+    }
+
+    override carryOver(text: string): string {
+      const answer = super.carryOver(text);
+      this.isCarried = true;
+      return answer;
     }
 
     override numbers(): string {
       const numbers = JSON.parse(super.numbers()) as RunNumbers;
-      const { stepMs, warnedS = Number.POSITIVE_INFINITY } = this.behaviour;
-      const warnings = numbers.time_s >= warnedS ? [aWarning] : [];
-      return JSON.stringify({ ...numbers, warnings, steps_ms: stepMs * numbers.steps_timed });
+      const { stepMs, warnedS = Number.POSITIVE_INFINITY, isBadOnTheWay, stretch } = this.behaviour;
+      const isBad = numbers.time_s >= warnedS - 1e-9 || (isBadOnTheWay && this.isCarried);
+      const steps_ms = stepMs * numbers.steps_timed;
+      const largest_stretch = stretch ?? numbers.largest_stretch;
+      return JSON.stringify({
+        ...numbers,
+        warnings: isBad ? [aWarning] : [],
+        steps_ms,
+        largest_stretch,
+      });
     }
   }
   return { ...module, Simulation };

@@ -18,14 +18,20 @@ import type {
 } from '../../shared/workers/motion-protocol';
 import type { LevelWish } from '../state/coarse-levels';
 import { withSample } from '../state/energy-samples';
-import { type MotionState, type Remedy, shownHeat, wantsReference } from '../state/motion-state';
+import {
+  type MotionState,
+  type Remedy,
+  shownHeat,
+  type Way,
+  wantsReference,
+} from '../state/motion-state';
 import { presetSetting, type Setting } from '../state/setting';
 import { withCost } from '../state/step-cost';
 import { later } from './later';
 import type { StartObj } from './obj-client';
 import { createLaterObj, type LaterObj } from './obj-later';
 import { ReferenceSource } from './reference-source';
-import { type Content, canKeepMotion, isSameScene, loadOf } from './run-content';
+import { type Content, canKeepMotion, isSameScene, loadOf, wayTo } from './run-content';
 import { RunFrames } from './run-frames';
 import { RunReading } from './run-reading';
 import { endOf, workWords } from './run-words';
@@ -82,6 +88,7 @@ export class MotionRun {
   private isAhead = false; // running to the start, nothing is shown
   private isRecovering = false; // started again after an end, and no step since
   private startsAnew = false; // the next load keeps no motion
+  private from: Way | null = null; // state from which it goes on, in place of the shown one
   private loaded: Content | null = null; // content that the worker has
   private seen: Content | null = null; // content of the picture
   private proven: Content | null = null; // the last one whose steps came without a wait
@@ -147,10 +154,12 @@ export class MotionRun {
     this.store.set({ playing: false, ...patch, setting: { ...patch.setting } });
   }
 
-  /** Shows the setting that helps, from its start or in the motion that there is. */
-  take({ setting, startsAnew }: Remedy): void {
-    if (startsAnew) this.showAnew({ setting, startSteps: 0, playing: true, problem: null });
-    else this.store.set({ setting });
+  /** Shows the setting that helps: from its start, from a state of this run, or in the motion that there is. */
+  take({ setting, startsAnew, from }: Remedy): void {
+    const plays = { setting, playing: true, problem: null };
+    if (startsAnew) return this.showAnew({ ...plays, startSteps: 0 });
+    this.from = from ?? null;
+    this.store.set(from ? { ...plays, course: from.course } : { setting });
   }
 
   /** Pauses; what the state says is of the shown frame then. */
@@ -347,15 +356,19 @@ export class MotionRun {
     const { numbers, phase, setting, mesh, astray } = this.store.get();
     const content: Content = { setting, mesh };
     const isMoving = phase !== 'stopped' && (numbers?.time_s ?? 0) > 0;
-    const keepMotion = isMoving && !this.startsAnew && canKeepMotion(this.loaded, content);
+    const { from, startsAnew } = this;
+    const isCarried = isMoving && !startsAnew && canKeepMotion(this.loaded, content);
+    const keepMotion = isCarried || from !== null;
     this.startsAnew = false;
+    this.from = null;
     this.isAhead = false;
     this.doing = keepMotion ? 'carryOver' : 'load';
     this.latest.start();
     this.store.set({ phase: 'loading', held: false, ahead: null });
     if (setting.preset === 'obj' && !mesh) return this.obj.bringExample();
     const scalar = this.scalar();
-    const question = { type: 'load', ...loadOf(content), keepMotion, scalar } as const;
+    const way = from ? wayTo(from) : [];
+    const question = { type: 'load', ...loadOf(content), keepMotion, scalar, way } as const;
     await this.reload(question, content, keepMotion ? (astray ?? 'changed') : null);
   }
 
@@ -389,7 +402,8 @@ export class MotionRun {
     this.clock.restart();
     this.reading.begin(message.numbers);
     this.showLoaded(message, content);
-    const { problem, startSteps, energy } = this.store.get();
+    const { problem, startSteps, energy, course } = this.store.get();
+    const { time_s, step } = message.numbers;
     this.lacksEnergy = energy;
     const isSolved = problem !== null && ['setting', 'run', 'file'].includes(problem.source);
     this.store.set({
@@ -401,12 +415,13 @@ export class MotionRun {
       energies: [],
       isCutShort: false,
       pace: null,
-      astray: message.numbers.time_s > 0 ? astray : null, // torn cloth begins anew
+      astray: time_s > 0 ? astray : null, // torn cloth begins anew
+      course: [...(time_s > 0 ? course : []), { ...content, fromStep: step }],
       problem: isSolved ? null : problem,
     });
     this.bringReference();
     void this.bringSprings();
-    if (message.numbers.time_s === 0 && startSteps > 0) {
+    if (time_s === 0 && startSteps > 0) {
       this.isAhead = true;
       this.runAhead();
     }

@@ -1,4 +1,6 @@
 // The content of a load, and whether it can keep the motion of the one before.
+import type { LoadMessage, SceneToLoad } from '../../shared/workers/motion-protocol';
+import type { Way } from '../state/motion-state';
 import type { ObjMesh } from '../state/obj-mesh';
 import { type Setting, sceneOf } from '../state/setting';
 
@@ -19,8 +21,16 @@ export function canKeepMotion(a: Content | null, b: Content): boolean {
 }
 
 /** The scene, and where its vertices start when that is not where they rest. */
-export function loadOf({ setting, mesh }: Content): { sceneText: string; start?: Float64Array } {
+export function loadOf({ setting, mesh }: Content): SceneToLoad {
   const sceneText = JSON.stringify(sceneOf(setting, mesh));
   const isStarted = setting.preset === 'obj' && setting.level === 0 && mesh?.start !== undefined;
   return isStarted ? { sceneText, start: mesh.start } : { sceneText };
+}
+
+/** The steps of each scene that lead to a state. */
+export function wayTo({ course, step }: Way): LoadMessage['way'] {
+  return course.map((leg, index) => {
+    const end = course[index + 1]?.fromStep ?? step;
+    return { ...loadOf(leg), steps: end - leg.fromStep };
+  });
 }

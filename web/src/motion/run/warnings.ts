@@ -8,7 +8,7 @@ import { type StartMotion, startMotionWorker } from '../../shared/workers/motion
 import type { MotionState, Problem } from '../state/motion-state';
 import type { Setting } from '../state/setting';
 import { type Change, changesFor } from './remedy-changes';
-import { cheapest, meanStepMs, type Tried, tryChanges } from './remedy-trial';
+import { cheapest, meanStepMs, type Tried, tryChanges, type WhyAnew } from './remedy-trial';
 
 const SEEKING = 'Trying what helps…';
 
@@ -34,11 +34,25 @@ export function costWords(
 
 type Answer = Pick<Problem, 'help' | 'remedy'>;
 
-function offer({ change, stepMs }: Tried, cost: { ms: number; stepS: number }): Answer {
+/** Why the run does not go on from where it was sound. */
+const WHY_ANEW: Record<WhyAnew, string> = {
+  'carries nothing': 'This cloth cannot change on the way, so it starts again.',
+  'never sound': 'The run was wrong from its first steps, so it starts again.',
+  'too long': 'To go back would take too long, so it starts again.',
+  'fails again': 'It helps from the start alone.',
+};
+
+function offer({ change, stepMs, from }: Tried, cost: { ms: number; stepS: number }): Answer {
   const { setting, what, why } = change;
   const costs = costWords({ ms: stepMs, stepS: setting.stepS }, cost);
+  if (typeof from === 'object') {
+    const { course, step, time_s } = from;
+    const title = `Go on from ${digits(time_s, 2)} s with ${what}: ${costs}`;
+    return { help: why, remedy: { title, setting, from: { course, step } } };
+  }
   const title = `Start again with ${what}: ${costs}`;
-  return { help: why, remedy: { title, setting, startsAnew: true } };
+  const help = from ? `${why} ${WHY_ANEW[from]}` : why;
+  return { help, remedy: { title, setting, startsAnew: true } };
 }
 
 /** A change that has held as far as it was seen, which was not far enough to know. */
@@ -95,7 +109,7 @@ export function tellWarnings(
     const { kind } = warning;
     const vertex = PLACED.includes(kind) ? { vertex: warning.vertex } : {};
     const problem: Problem = { source, warning: kind, sentence, ...vertex, help: SEEKING };
-    const { setting, mesh, numbers, astray } = store.get();
+    const { setting, mesh, numbers, astray, course } = store.get();
     toldMs = performance.now();
     if (isSought(kind)) return store.set({ problem });
     giveUp();
@@ -103,7 +117,7 @@ export function tellWarnings(
     const end = new AbortController();
     seeking = { kind, setting, end };
     store.set({ problem });
-    const question = { changes: () => changes(warning), mesh, warning };
+    const question = { changes: () => changes(warning), mesh, course, warning };
     const tried = await tryChanges(start, question, end.signal);
     if (!tried) return;
     seeking = null;

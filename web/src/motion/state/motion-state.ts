@@ -19,10 +19,26 @@ import { NO_SWEEP, type SweepState } from './sweep-state';
 
 export type Phase = 'loading' | 'ready' | 'stopped' | 'refused' | 'broken';
 
+/** A stretch of a run in one setting. */
+export interface Leg {
+  setting: Setting;
+  mesh: ObjMesh | null;
+  /** Steps of the run when it began. */
+  fromStep: number;
+}
+
+/** A state of a run: where so many steps of its course lead. */
+export interface Way {
+  course: readonly Leg[];
+  step: number;
+}
+
 /** The change that helps, and the words for it. */
 export interface Remedy {
   title: string;
   setting: Setting;
+  /** State of the run that it goes on from, and then plays. */
+  from?: Way;
   /** True when it starts the run anew, which then plays; else the motion goes on. */
   startsAnew?: boolean;
 }
@@ -85,6 +101,8 @@ export interface MotionState extends MotionLink {
   ahead: number | null;
   /** The question that the worker has been at for a while, and for how long by now [s]. */
   busy: { type: string; seconds: number } | null;
+  /** Settings in which the run has come to its present time, unless a hand pulled it there. */
+  course: readonly Leg[];
   /** Why the shown state is not what its link replays. */
   astray: 'pulled' | 'changed' | null;
   /** State of the reference that the shown cloth is compared with. */
@@ -124,6 +142,7 @@ export function initialMotionState(link: MotionLink, problems: string[]): Motion
     imexSaving: null,
     ahead: null,
     busy: null,
+    course: [],
     astray: null,
     reference: 'unasked',
     costs: {},

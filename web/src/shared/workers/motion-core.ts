@@ -20,6 +20,7 @@ import type {
   LevelsQuestion,
   LoadMessage,
   RunReport,
+  SceneToLoad,
   StepMessage,
   ToMotion,
   TornMesh,
@@ -75,13 +76,10 @@ export class MotionCore extends ModuleCore<PleatModule, ToMotion, FromMotion> {
   }
 
   /** Sends everything the page draws from, with two fresh buffers, the first one filled. */
-  private postLoaded(
-    { scalar = 'stretch' }: { scalar?: Scalar },
-    run: SimulationHandle,
-    summary: SceneSummary,
-  ): void {
+  private postLoaded({ scalar = 'stretch' }: { scalar?: Scalar }, run: SimulationHandle): void {
+    const { loaded: summary } = this;
     const numbers = this.readNumbers(run);
-    if (!numbers) throw new Error('no numbers after a load');
+    if (!summary || !numbers) throw new Error('no numbers after a load');
     this.nBytes = frameBytes(run);
     const buffers: [ArrayBuffer, ArrayBuffer] = [
       new ArrayBuffer(this.nBytes),
@@ -96,9 +94,7 @@ export class MotionCore extends ModuleCore<PleatModule, ToMotion, FromMotion> {
     ]);
   }
 
-  private load(run: SimulationHandle, message: LoadMessage): void {
-    const { sceneText, keepMotion, start } = message;
-    const isKept = keepMotion && this.loaded !== null;
+  private take(run: SimulationHandle, { sceneText, start }: SceneToLoad, isKept: boolean): void {
     const nSteps = isKept ? this.readNumbers(run)?.step : 0;
     const text = isKept ? run.carryOver(sceneText) : run.load(sceneText);
     const { summary } = granted<{ summary: SceneSummary }>(text);
@@ -106,14 +102,22 @@ export class MotionCore extends ModuleCore<PleatModule, ToMotion, FromMotion> {
     const isOnItsWay = Number(this.readNumbers(run)?.time_s) > 0; // torn cloth begins anew
     this.nStepsBefore = (isOnItsWay && nSteps) || 0;
     this.loaded = summary;
-    this.postLoaded(message, run, this.loaded);
+  }
+
+  private load(run: SimulationHandle, message: LoadMessage): void {
+    for (const [index, leg] of (message.way ?? []).entries()) {
+      this.take(run, leg, index > 0);
+      if (run.step(leg.steps) !== 0) throw new Error('the run ended on a way that it had taken');
+    }
+    this.take(run, message, message.keepMotion && this.loaded !== null);
+    this.postLoaded(message, run);
   }
 
   private reset(run: SimulationHandle, message: Extract<ToMotion, { type: 'reset' }>): void {
     if (!this.loaded) throw new Error('reset before load');
     granted(run.reset());
     this.nStepsBefore = 0;
-    this.postLoaded(message, run, this.loaded);
+    this.postLoaded(message, run);
   }
 
   /** One that cannot be read is none: the page goes without. */

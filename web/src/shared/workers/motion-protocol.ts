@@ -25,13 +25,18 @@ export interface StepMessage {
   buffer: ArrayBuffer;
 }
 
-export interface LoadMessage {
-  type: 'load';
+export interface SceneToLoad {
   sceneText: string;
-  keepMotion: boolean;
-  scalar?: Scalar;
   /** Places where the vertices start, unless they start where they rest. */
   start?: Float64Array;
+}
+
+export interface LoadMessage extends SceneToLoad {
+  type: 'load';
+  keepMotion: boolean;
+  scalar?: Scalar;
+  /** The motion to keep is this one's end: so many steps of each scene, the first one from its start. */
+  way?: readonly (SceneToLoad & { steps: number })[];
 }
 
 export interface ImplicitShareQuestion {
