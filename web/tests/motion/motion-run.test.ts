@@ -3,6 +3,7 @@ import { linkSentence } from '../../src/motion/panels/link-tool';
 import { errorWords } from '../../src/motion/panels/numbers/error-words';
 import { MotionRun } from '../../src/motion/run/motion-run';
 import type { StartObj } from '../../src/motion/run/obj-client';
+import { backWords } from '../../src/motion/run/run-words';
 import { decodeMotionLink, encodeMotionLink, linkTo } from '../../src/motion/state/motion-link';
 import { initialMotionState, shownHeat } from '../../src/motion/state/motion-state';
 import { presetSetting, withModel, withStepper } from '../../src/motion/state/setting';
@@ -383,10 +384,27 @@ describe('motion run whose worker does not go on', () => {
     expect(setting.level).toBe(0);
     expect(busy).toBeNull();
     expect(problem?.sentence).toMatch(
-      /One step at level 2 was stopped .*back at its start, at level 0/,
+      /^One step at level 2 was stopped after \d s\. The level is 0 again, as before, and the cloth is back at its start\.$/,
     );
     expect(stepCostAt(costs, setting, 2)).toMatchObject({ isLeast: true });
     await stepTo(page, 1);
+  });
+
+  it('says which method it goes back to', async () => {
+    const page = open('#scene=curtain&level=0&stepper=xpbd');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    await stepTo(page, 1);
+    page.store.set({ setting: withStepper(page.store.get().setting, 'explicit') });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    hangsAt = ({ type }) => type === 'step';
+    page.run.step();
+    await vi.waitUntil(() => page.store.get().busy?.type === 'step', 3000);
+    hangsAt = () => false;
+    page.run.stopWork();
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    const { setting, problem } = page.store.get();
+    expect(setting.stepper).toBe('xpbd');
+    expect(problem?.sentence).toContain('The method is XPBD again, as before, and');
   });
 
   it('does not let another setting wait for ever, nor at all once Stop is pressed', async () => {
@@ -411,6 +429,29 @@ describe('motion run whose worker does not go on', () => {
     page.run.reset();
     await vi.waitUntil(() => phaseOf(page) === 'ready', 5000);
     expect(page.store.get()).toMatchObject({ numbers: { step: 0 }, setting: { level: 0 } });
+  });
+});
+
+describe('words on cloth that starts again', () => {
+  const setting = withStepper(presetSetting('curtain'), 'xpbd');
+  const back = (patch: Partial<typeof setting>, hasRun = true) =>
+    backWords({ ...setting, ...patch }, setting, hasRun);
+
+  it('name what is other than it was to be, and nothing else', () => {
+    expect(back({})).toBe('The cloth is back at its start.');
+    expect(back({ fabric: 'silk', level: 4 })).toMatch(
+      /^The level is \d and the fabric is .+ again, as before, and/,
+    );
+    expect(back({ stepS: 1 / 30, substeps: 7 })).toMatch(
+      /^The step is 1\/60 s and the number of substeps is \d+ again/,
+    );
+  });
+
+  it('leave the counts to the method, and say where it is the scene’s own', () => {
+    const words = backWords(withStepper(setting, 'explicit'), setting, false);
+    expect(words).toBe(
+      'The method is XPBD again, as this scene has it, and the cloth is back at its start.',
+    );
   });
 });
 

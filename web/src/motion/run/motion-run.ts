@@ -34,7 +34,7 @@ import { ReferenceSource } from './reference-source';
 import { type Content, canKeepMotion, isSameScene, loadOf, wayTo } from './run-content';
 import { RunFrames } from './run-frames';
 import { RunReading } from './run-reading';
-import { endOf, workWords } from './run-words';
+import { backWords, endOf, workWords } from './run-words';
 import { RunWorker, type Work } from './run-worker';
 
 /** Numbers are read and shown this often [ms]: faster cannot be read. */
@@ -189,8 +189,7 @@ export class MotionRun {
     if (busy.type === 'readLevels') this.store.set({ coarse: 0 });
     const again = this.lastGood();
     const stopped = `${workWords(busy.type, setting)} was stopped after ${busy.seconds} s.`;
-    const { level } = again.setting;
-    this.startAgain(again, `${stopped} The cloth is back at its start, at level ${level}.`);
+    this.startAgain(again, stopped);
   }
 
   /** How imex would take the loaded springs with such a setting; null when that comes too late. */
@@ -258,7 +257,7 @@ export class MotionRun {
     if (this.isRecovering) return this.giveUp(ended);
     this.isRecovering = true;
     const again = this.loaded?.setting === setting ? this.loaded : this.lastGood();
-    this.startAgain(again, `${ended} It was started again, and the cloth is back at its start.`);
+    this.startAgain(again, `${ended} It was started again.`);
   }
 
   private giveUp(ended: string): void {
@@ -282,10 +281,13 @@ export class MotionRun {
     this.doing = 'nothing';
   }
 
-  /** Another worker starts with this content; `sentence` says why. */
-  private startAgain({ setting, mesh }: Content, sentence: string): void {
+  /** Another worker starts with this content, for the reason `why`. */
+  private startAgain(content: Content, why: string): void {
     this.replaceWorker();
     this.startsAnew = true;
+    const { setting, mesh } = content;
+    const isProven = content === this.proven;
+    const sentence = `${why} ${backWords(this.store.get().setting, setting, isProven)}`;
     const problem = { source: 'worker', sentence } as const;
     const rest = { playing: false, startSteps: 0, held: false, busy: null } as const;
     this.store.set({ ...rest, phase: 'loading', problem, mesh, setting: { ...setting } });
