@@ -4,7 +4,7 @@ import { atLeast, atMost, table } from './bench-rows.mjs';
 import { askPage } from './command.mjs';
 
 const kMostOff = 0.1;
-const kLeastTold = 0.8; // of the time
+const kLeastTold = 0.8; // share of the time
 
 export function progress() {
   tell("the page's first sweep, and its progress");

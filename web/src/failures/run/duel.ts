@@ -53,7 +53,7 @@ export class Duel {
     this.both = new InStep(store, view, piece, parts);
     store.subscribe((state, previous) => {
       if (state.caseId === previous.caseId) return;
-      // What told of the case before tells nothing of this one.
+      // A problem of the case before tells nothing of this one.
       const problem = state.problem === previous.problem ? null : state.problem;
       store.set({ sides: freshSides(), timeS: 0, problem });
       this.retry();

@@ -55,7 +55,7 @@ function waitingSentence({ garment, fabric, phase, panes: { fine } }: Refinement
 export function answerSentence(state: RefinementState): string {
   const { panes, garment, rival, fabric } = state;
   const [ours, theirs] = [panes.planned.distanceM, panes[rival].distanceM];
-  // What is known while something else is fetched is of what was shown before.
+  // Distances that are known while something else is fetched belong to what was shown before.
   if (ours === null || theirs === null || state.phase === 'loading') return waitingSentence(state);
   const [near, far] = [smallLength(ours), smallLength(theirs)];
   // While it is computed nobody counts whether cloth passes through itself.

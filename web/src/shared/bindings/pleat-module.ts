@@ -28,7 +28,7 @@ export interface ReferenceNumbers {
 
 export interface RunNumbers {
   time_s: number;
-  /** Of the module: steps since the run took its present scene. Of the page: those that it took to its time. */
+  /** Steps since the run took its present scene, as the module tells them; the page counts from the start. */
   step: number;
   /** Largest and root mean square of |edge strain|, as ratios. */
   largest_stretch: number;
