@@ -7,8 +7,8 @@ import { FIRST_ROUND, hasFinished, type PlannedSetting, type SweepPlan } from '.
 export interface SweepProgress {
   /** Share of the time of the whole sweep that has passed, 0 to 1. */
   share: number;
-  /** Time that the rest is expected to take [s]. */
-  leftS: number;
+  /** Time that the rest is expected to take [s]; null before each setting was measured: first runs are of cold code. */
+  leftS: number | null;
 }
 
 /** A sweep that is not done has some of it left, whatever was expected. */
@@ -83,5 +83,6 @@ export function progressOf(
   const restS = makes ? Math.max((wholeS ?? 0) - passedS, 0) : runsLeftS(plan, rows);
   if (passedS <= 0) return null;
   const share = Math.min(Math.max(passedS / (passedS + restS), before), MOST_SHOWN);
-  return { share, leftS: (passedS * (1 - share)) / share };
+  const isTold = makes || rows.length === plan.settings.length;
+  return { share, leftS: isTold ? (passedS * (1 - share)) / share : null };
 }
