@@ -28,6 +28,7 @@ import { decodeMotionLink, encodeMotionLink, linkTo } from './state/motion-link'
 import { AT_START, initialMotionState, type MotionState, shownHeat } from './state/motion-state';
 import { deformedMesh, holdFor } from './state/obj-mesh';
 import { PRESETS, presetSetting } from './state/setting';
+import { MANY_SUBSTEPS } from './state/step-cost';
 
 export interface MotionView extends View {
   /** The shown scene in that fabric. */
@@ -146,6 +147,16 @@ function tellOfRun(store: Store<MotionState>, run: MotionRun): void {
   });
 }
 
+/** The cost of steps of many substeps is foretold by a part that comes with the first of them. */
+function foretellCost(store: Store<MotionState>): void {
+  const bring = later({ set: () => undefined }, 'The cost of a step', async () => {
+    (await import('./run/step-probe')).foretellSteps(store);
+  });
+  watch(store, ['summary'], ({ summary }) => {
+    if (Number(summary?.substeps) >= MANY_SUBSTEPS) void bring();
+  });
+}
+
 /** The stitches come when a knit is first shown; without them it is drawn plain. */
 function drawKnit(store: Store<MotionState>, stage: MotionStage): void {
   let drawn: Knit | undefined;
@@ -215,6 +226,7 @@ export function createMotionView(place: Place, hash: string): MotionView {
   running = run;
   const link = () => `#${encodeMotionLink(linkTo(store.get()))}`;
   tellOfRun(store, run);
+  foretellCost(store);
   createPanels(place, store, run, { homeView: () => stage?.homeView(), link });
   createDropTarget(
     () => isShown,

@@ -235,6 +235,30 @@ async function checkWorker({ check, open }, visit) {
     },
   );
 
+  await check('a step of very many substeps is foretold, and Stop says what comes back', () =>
+    visit('#scene=tablecloth&level=3', async (page) => {
+      await isReady(page);
+      await button(page, 'Step').click();
+      await until(page, (state) => state.numbers.step === 1);
+      await choice(page, 'Method').selectOption({ label: 'Explicit' });
+      await until(page, ({ costs }) =>
+        Object.values(costs).some(({ isMeasured, ms }) => !isMeasured && ms > 1000),
+      );
+      const strip = await page.locator('.numbers').textContent();
+      expectThat(/≈ \d+ (s|min)expected/.test(strip), strip);
+      await button(page, 'Step').click();
+      await until(page, (state) => state.busy?.type === 'step');
+      const words = await page.locator('.work-bar p').textContent();
+      expectThat(/^One step at level 3: \d s of about \d+ (s|min)$/.test(words), words);
+      await button(page, 'Stop').click();
+      await isReady(page);
+      expectThat(
+        /The method is Implicit again, as before/.test(await alertText(page)),
+        await alertText(page),
+      );
+    }),
+  );
+
   await check('the word on lost graphics goes once they are back', async () => {
     const { page, close } = await open('#scene=curtain&level=0');
     await isReady(page);

@@ -29,7 +29,7 @@ describe('the cost of a step', () => {
 
   it('says nothing of another method, and nothing of coarser levels after a step was stopped', () => {
     expect(stepCostAt(costs, withStepper(setting, 'xpbd'), 2)).toBeNull();
-    const stopped = withCost({}, { ...setting, level: 4 }, 9000, true);
+    const stopped = withCost({}, { ...setting, level: 4 }, 9000, { isLeast: true });
     expect(stepCostAt(stopped, setting, 4)).toMatchObject({ ms: 9000, isLeast: true });
     expect(stepCostAt(stopped, setting, 3)).toBeNull();
   });

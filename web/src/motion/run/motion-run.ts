@@ -26,7 +26,7 @@ import {
   wantsReference,
 } from '../state/motion-state';
 import { presetSetting, type Setting } from '../state/setting';
-import { withCost } from '../state/step-cost';
+import { stepCostAt, withCost } from '../state/step-cost';
 import { later } from './later';
 import type { StartObj } from './obj-client';
 import { createLaterObj, type LaterObj } from './obj-later';
@@ -314,7 +314,9 @@ export class MotionRun {
   private noteLeastCost(ms: number): void {
     if (!this.loaded) return;
     const { costs } = this.store.get();
-    this.store.set({ costs: withCost(costs, this.loaded.setting, ms, true) });
+    const { setting } = this.loaded;
+    if (Number(stepCostAt(costs, setting, setting.level)?.ms) > ms) return; // more was known
+    this.store.set({ costs: withCost(costs, setting, ms, { isLeast: true }) });
   }
 
   /** The answer; null when there is none, or when it comes too late for what is shown by now. */

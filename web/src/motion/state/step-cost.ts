@@ -1,4 +1,5 @@
 // Cost of a step on this device at each level: as measured, or as expected from another level.
+import { shortTime } from '../../shared/panels/quantity';
 import {
   STABLE_SUBSTEPS,
   type StepperRow,
@@ -9,14 +10,17 @@ import { COUNTS, type Setting, wantedShare, withLevel } from './setting';
 
 export interface StepCost {
   ms: number;
-  /** It was measured at that level; else it follows from another one. */
+  /** A step was measured at that level; else it follows from another one, or from some of its substeps. */
   isMeasured: boolean;
   /** The step was stopped then: it takes longer. */
   isLeast: boolean;
 }
 
-/** Measured costs, by `keyOf` a setting. */
-export type StepCosts = Readonly<Record<string, { ms: number; isLeast: boolean }>>;
+/** Costs that are known, by `keyOf` a setting. */
+export type StepCosts = Readonly<Record<string, StepCost>>;
+
+/** Substeps whose step may take longer than anybody waits: it is foretold. */
+export const MANY_SUBSTEPS = 100;
 
 /** Each level has four times the vertices. */
 const WORK_PER_LEVEL = 4;
@@ -53,9 +57,9 @@ export function withCost(
   costs: StepCosts,
   setting: Setting,
   ms: number,
-  isLeast = false,
+  how: Partial<StepCost> = {},
 ): StepCosts {
-  return { ...costs, [keyOf(setting)]: { ms, isLeast } };
+  return { ...costs, [keyOf(setting)]: { ms, isMeasured: true, isLeast: false, ...how } };
 }
 
 /** Cost that a step of this setting would have at a level; null while nothing like it was measured. */
@@ -63,7 +67,7 @@ export function stepCostAt(costs: StepCosts, setting: Setting, level: number): S
   const at = (other: number) => withLevel(setting, other);
   const measuredAt = (other: number) => costs[keyOf(at(other))];
   const own = measuredAt(level);
-  if (own) return { ...own, isMeasured: true };
+  if (own) return own;
   const growth = growthOf(stepperRow(setting.stepper), setting.substeps);
   const substepsOver = (other: number) => at(level).substeps / at(other).substeps || 1;
   // The nearest level tells best; of two that are as near, the finer one.
@@ -75,4 +79,10 @@ export function stepCostAt(costs: StepCosts, setting: Setting, level: number): S
     return { ms, isMeasured: false, isLeast };
   }
   return null;
+}
+
+/** A cost where there is little room: "13 ms", "≈ 5 s", "> 9 s". */
+export function costText({ ms, isMeasured, isLeast }: StepCost): string {
+  if (isLeast) return `> ${shortTime(ms)}`;
+  return isMeasured ? shortTime(ms) : `≈ ${shortTime(ms, 1)}`;
 }

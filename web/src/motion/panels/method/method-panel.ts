@@ -22,7 +22,7 @@ import {
   withModel,
   withStepper,
 } from '../../state/setting';
-import { type StepCost, type StepCosts, stepCostAt } from '../../state/step-cost';
+import { costText, type StepCost, type StepCosts, stepCostAt } from '../../state/step-cost';
 import { countField } from './count-field';
 
 function hasLevels({ preset }: Setting): boolean {
@@ -66,11 +66,6 @@ function levelPicker(onChoice: (level: number) => void) {
       });
     },
   };
-}
-
-function costText({ ms, isMeasured, isLeast }: StepCost): string {
-  if (isLeast) return `> ${shortTime(ms)}`;
-  return isMeasured ? shortTime(ms) : `≈ ${shortTime(ms, 1)}`;
 }
 
 function costSentence({ ms, isMeasured, isLeast }: StepCost): string {

@@ -5,6 +5,7 @@ import { digits, milliseconds, percent } from '../../../shared/panels/quantity';
 import { type Store, watch } from '../../../shared/state/store';
 import type { MotionState } from '../../state/motion-state';
 import { ownQuantities, type Setting } from '../../state/setting';
+import { costText, type StepCost, stepCostAt } from '../../state/step-cost';
 import { errorWords } from './error-words';
 import { pullSentence } from './pull-words';
 
@@ -45,6 +46,11 @@ export function weightText(setting: Setting): string {
   return own === undefined ? `weight ${confidence}` : 'weight of scene';
 }
 
+/** Time of a step as far as it is known of this setting without its run. */
+function costOf({ costs, setting }: Pick<MotionState, 'costs' | 'setting'>): StepCost | null {
+  return stepCostAt(costs, setting, setting.level);
+}
+
 const ITEMS: readonly Item[] = [
   {
     title: 'Status',
@@ -60,14 +66,20 @@ const ITEMS: readonly Item[] = [
     width: 'wide',
     meaning:
       'Wall time of one step on this device, from its begin to its end, in parts; mean over at least 50 ms of work.',
-    text: ({ timing }) => (timing ? milliseconds(timing.totalMs) : '–'),
-    detail: ({ timing }) =>
+    text: (state) => {
+      const { timing } = state;
+      const cost = costOf(state);
+      return timing ? milliseconds(timing.totalMs) : cost ? costText(cost) : '–';
+    },
+    detail: ({ timing, ...state }) =>
       timing
         ? timing.parts
             .filter(({ ms }) => ms >= LEAST_PART * timing.totalMs)
             .map(({ name, ms }) => `${name.replaceAll('_', ' ')} ${digits(ms, 2)}`)
             .join(' · ')
-        : 'play to measure',
+        : costOf(state)
+          ? 'expected, play to measure'
+          : 'play to measure',
   },
   {
     title: 'Error',
@@ -159,6 +171,7 @@ export function createNumbersStrip(
       'reference',
       'compare',
       'heat',
+      'costs',
     ],
     (state) => {
       for (const { item, value, detail } of cells) {
