@@ -306,6 +306,16 @@ std::array<double, 2> StepperProjective::slopes(double h) const {
     const Vec3Lanes<Both> falls = {Both::all(fall.x()), Both::all(fall.y()), Both::all(fall.z())};
     slope = slope + tension * dot(way, falls) - Both::all(target.damped.dot(fall));
   }
+  for (const BendElement& bend : model_.bends) {
+    Vec3 curve(0, 0, 0);
+    Vec3 fall(0, 0, 0);
+    for (std::size_t k = 0; k < bend.vertices.size(); ++k) {
+      curve += bend.weights[k] * positions_.col(bend.vertices[k]);
+      fall += bend.weights[k] * fall_.col(bend.vertices[k]);
+    }
+    const double begin = bend.stiffness * curve.dot(fall);
+    slope = slope + Both{{begin, begin + bend.stiffness * fall.squaredNorm()}};
+  }
   return {slope.value[0], slope.value[1]};
 }
 
