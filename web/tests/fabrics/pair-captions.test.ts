@@ -1,4 +1,4 @@
-// What the sentences on strips and on two fabrics in motion say of them is computed.
+// Captions of the strips and of two fabrics in motion against runs of both.
 import { describe, expect, it } from 'vitest';
 import { bendingLength } from '../../src/fabrics/state/bending-length';
 import { PAIR_SCENES, PAIR_STEP_S, sceneTextOf } from '../../src/fabrics/state/pair';

@@ -1,4 +1,4 @@
-// What the words of the view of modes say of bodies is found in their modes.
+// Captions of the view of modes against the computed modes of their bodies.
 import { readFileSync } from 'node:fs';
 import { beforeAll, describe, expect, it } from 'vitest';
 import type { Energy, ModalModule } from '../../src/modes/bindings/modal-module';

@@ -368,18 +368,23 @@ describe('motion run whose worker does not go on', () => {
     await stepTo(page, 1);
   });
 
-  it('shows a step that takes long, and Stop goes back to what ran before', async () => {
-    const page = open('#scene=curtain&level=0');
-    await vi.waitUntil(() => phaseOf(page) === 'ready');
-    await stepTo(page, 1);
-    page.store.set({ setting: { ...page.store.get().setting, level: 2 } });
-    await vi.waitUntil(() => phaseOf(page) === 'ready');
+  /** Asks for a step that never ends, and stops it once the page shows that it takes long. */
+  const stopLongStep = async (page: ReturnType<typeof open>) => {
     hangsAt = ({ type }) => type === 'step';
     page.run.step();
     await vi.waitUntil(() => page.store.get().busy?.type === 'step', 3000);
     hangsAt = () => false;
     page.run.stopWork();
     await vi.waitUntil(() => phaseOf(page) === 'ready');
+  };
+
+  it('shows a step that takes long, and Stop goes back to what ran before', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    await stepTo(page, 1);
+    page.store.set({ setting: { ...page.store.get().setting, level: 2 } });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    await stopLongStep(page);
     const { setting, problem, costs, busy } = page.store.get();
     expect(setting.level).toBe(0);
     expect(busy).toBeNull();
@@ -396,12 +401,7 @@ describe('motion run whose worker does not go on', () => {
     await stepTo(page, 1);
     page.store.set({ setting: withStepper(page.store.get().setting, 'explicit') });
     await vi.waitUntil(() => phaseOf(page) === 'ready');
-    hangsAt = ({ type }) => type === 'step';
-    page.run.step();
-    await vi.waitUntil(() => page.store.get().busy?.type === 'step', 3000);
-    hangsAt = () => false;
-    page.run.stopWork();
-    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    await stopLongStep(page);
     const { setting, problem } = page.store.get();
     expect(setting.stepper).toBe('xpbd');
     expect(problem?.sentence).toContain('The method is XPBD again, as before, and');

@@ -1,4 +1,4 @@
-// What the captions of scenes in air, on solids and on springs say is seen in them.
+// Captions of scenes in air, on solids and on springs against runs of these scenes.
 import { describe, expect, it } from 'vitest';
 import { loadFirst } from '../support/built-module';
 import {

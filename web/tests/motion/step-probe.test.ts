@@ -1,4 +1,4 @@
-// What a step of many substeps takes is known before one is through, from a few of them.
+// Estimate of the time of a step of many substeps, from a few of them.
 import { afterEach, describe, expect, it, vi } from 'vitest';
 import { foretellSteps, probeStep } from '../../src/motion/run/step-probe';
 import { decodeMotionLink } from '../../src/motion/state/motion-link';
