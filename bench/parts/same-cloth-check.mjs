@@ -5,7 +5,7 @@ import { tell } from './bench-options.mjs';
 import { atMost, largest, markdown } from './bench-rows.mjs';
 import { printed } from './command.mjs';
 
-const kFrames = 900; // 15 s: looks come from rest on, each as dear as some steps
+const kFrames = 1500; // 25 s: looks come from rest on, each as dear as some steps
 const kMostShare = 0.01;
 const kScenes = ['tablecloth', 'curtain'];
 const kLevel = 2;

@@ -13,7 +13,9 @@ namespace pleat {
 namespace {
 
 constexpr double kSquaredStep = kEquilibriumStep * kEquilibriumStep;  // h^2 [s^2]
-constexpr double kSolverTolerance = 1e-3;
+/// Relative residuals that one solve is asked for: no more than is worth solving for.
+constexpr double kLeastTolerance = 1e-3;
+constexpr double kLargestTolerance = 0.5;
 constexpr int kSolverIterations = 200;
 /// Share of the weight that may be left of the equations: a tenth of the bound that matters.
 constexpr double kLeastResidual = 0.005;
@@ -22,6 +24,13 @@ constexpr int kMaxCorrections = 4;
 constexpr int kMaxRounds = 10;
 /// Change of the share from round to round that ends them.
 constexpr double kShareAccuracy = 0.005;
+/// Share that is far too large, whatever the contacts come to: once it is not below so many times
+/// that of the round before, further rounds only say how large. They may never end, one vertex
+/// slipping where another sticks.
+constexpr double kFarTooLarge = 0.1;
+constexpr double kFalls = 0.8;
+/// Rounds in which vertices that are new on a solid are held before they are judged.
+constexpr int kRoundsOfNewContacts = 2;
 /// Change of friction from round to round, in shares of it, that asks for another one.
 constexpr double kFrictionAccuracy = 0.02;
 /// A solid resists a vertex's moves by so many times what the cloth does: it gives way by a
@@ -73,7 +82,7 @@ EquilibriumCheck::EquilibriumCheck(const ClothModel& model)
 
 void EquilibriumCheck::take_solver(SolverKind kind) {
   kind_ = kind;
-  solver_ = make_linear_solver(kind, {kSolverTolerance, kSolverIterations});
+  solver_ = make_linear_solver(kind, {kLeastTolerance, kSolverIterations});
   solver_->analyze(matrix_.lower());
   work_ += kAnalysisCost;
 }
@@ -196,6 +205,8 @@ bool EquilibriumCheck::solve() {
   const auto product = matrix_.lower().selfadjointView<Eigen::Lower>();
   const Positions whole = rhs_;
   for (int round = 0; round < kMaxCorrections; ++round) {
+    const double asked = 0.9 * least_residual_ / std::sqrt(squared_sum(rhs_, is_free_));
+    solver_->set_tolerance(std::max(kLeastTolerance, std::min(kLargestTolerance, asked)));
     correction_.setZero();
     const SolveReport report = solver_->solve(flat(rhs_), flat(correction_));
     work_ += kIterationCost * (report.iterations + 2);
@@ -282,7 +293,10 @@ std::optional<double> EquilibriumCheck::unbalanced_share(const State& state, dou
     if (!solve() && !solve_by_factor()) return std::nullopt;
     share = share_of_moves();
     if (!take_contact_forces()) break;
-    if (round > 0 && std::abs(share - before) <= kShareAccuracy) break;
+    const bool is_known = round > 0 && std::abs(share - before) <= kShareAccuracy;
+    const bool is_far_off =
+        round >= kRoundsOfNewContacts && share > kFarTooLarge && share >= kFalls * before;
+    if (is_known || is_far_off) break;
   }
   return share;
 }

@@ -20,7 +20,7 @@ constexpr double kUnbalanced = 0.05;
 /// Share of the steps' work that looks may take.
 constexpr double kShareOfWork = 0.01;
 /// First look's cost per vertex as long as none is known, in units of StepperType::substep_cost.
-constexpr double kFirstLook = 250;
+constexpr double kFirstLook = 350;
 
 Vec3 drift_of(const Simulation& simulation) {
   const Eigen::VectorXd& masses = simulation.model().masses;
