@@ -1,6 +1,7 @@
 // ./pleat bench fabrics (--help tells the options)
 // Costs of a shape of least deformation energy, from its mesh and under a moving hand, natively and
-// in WebAssembly; how much it depends on the mesh; and whether fabrics' weights show in it.
+// in WebAssembly; how much it depends on the mesh; whether fabrics' weights show in it; and how far
+// each fabric drapes at a scene's defaults.
 import { asset, fabricsText, readJson } from './parts/assets.mjs';
 import { tell } from './parts/bench-options.mjs';
 import { runParts } from './parts/bench-parts.mjs';
@@ -18,6 +19,7 @@ import {
 } from './parts/bench-rows.mjs';
 import { ask } from './parts/command.mjs';
 import { deformWasm } from './parts/deform-wasm.mjs';
+import { drape } from './parts/fabric-drape.mjs';
 
 const kMoves = 20; // steps of a hand, from rest to the scene's targets
 const kLargest = ['ball', 'diagonal_stretch', 'wrinkles']; // 51 x 51 vertices each
@@ -282,4 +284,13 @@ async function shirt() {
 }
 
 const purpose = 'shapes of least deformation energy: cost, and what they depend on';
-await runParts('fabrics', purpose, { solve, drag, wasm, mesh, growth, weights, shirt });
+await runParts('fabrics', purpose, {
+  solve,
+  drag,
+  wasm,
+  mesh,
+  growth,
+  weights,
+  shirt,
+  drape,
+});

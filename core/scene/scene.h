@@ -56,7 +56,7 @@ struct ModelOptions {
   DampingDirection damping_direction = DampingDirection::along_spring;  ///< damping of springs
   bool shear = true;              ///< springs on both diagonals of each quad
   double stiffening_strain = 0;   ///< threads beyond it are kTautFactor times as stiff; 0: never
-  double torsion = 1;             ///< fitted: twisting rigidity in shares of sqrt(B_warp B_weft)
+  double torsion = 0.4;           ///< fitted: twisting rigidity in shares of sqrt(B_warp B_weft)
   double stiffness_exponent = 0;  ///< springs of faces of level l are 2^(this l) times as stiff
   std::optional<StrainLimitOptions> strain_limit;
   std::shared_ptr<const Tearing> tearing;  ///< or null: the cloth holds whatever pulls at it
