@@ -87,11 +87,13 @@ void substitute(const Block<width>& block, double* y) {
     unrolled<width>([&](auto c) { x[c] = x[c] - Lanes::all(block.below(r, c)) * row; });
   }
   unrolled<width>([&](auto after) {
-    constexpr int c = width - 1 - after;
-    unrolled<after>(
-        [&](auto k) { x[c] = x[c] - Lanes::all(block.triangle(c + 1 + k, c)) * x[c + 1 + k]; });
-    x[c] = x[c] / Lanes::all(block.triangle(c, c));
-    x[c].store(at(block.column + c));
+    constexpr int kColumn = width - 1 - after;
+    Lanes& own = x[kColumn];
+    unrolled<after>([&](auto k) {
+      own = own - Lanes::all(block.triangle(kColumn + 1 + k, kColumn)) * x[kColumn + 1 + k];
+    });
+    own = own / Lanes::all(block.triangle(kColumn, kColumn));
+    own.store(at(block.column + kColumn));
   });
 }
 

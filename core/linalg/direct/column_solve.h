@@ -22,16 +22,16 @@ struct LowerColumns {
 class ColumnSolve {
  public:
   /// Looks at the rows of L: which columns go together.
-  void prepare(const LowerColumns& factor);
+  void prepare(const LowerColumns& L);
 
   /// permutation  row of the matrix for each row of L
   /// rhs          n x m
-  void solve(const LowerColumns& factor, const int* permutation,
+  void solve(const LowerColumns& L, const int* permutation,
              const Eigen::Ref<const Eigen::MatrixXd>& rhs, Eigen::Ref<Eigen::MatrixXd> solution);
 
  private:
   template <class Lanes>
-  void solve_lanes(const LowerColumns& factor, const int* permutation,
+  void solve_lanes(const LowerColumns& L, const int* permutation,
                    const Eigen::Ref<const Eigen::MatrixXd>& rhs,
                    Eigen::Ref<Eigen::MatrixXd> solution, Eigen::Index first);
 
