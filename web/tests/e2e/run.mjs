@@ -19,6 +19,7 @@ import { checkLevels } from './levels.mjs';
 import { checkModes } from './modes.mjs';
 import { checkMotion } from './motion.mjs';
 import { checkRefinement } from './refinement.mjs';
+import { checkSweepTable } from './sweep-table.mjs';
 import { checkTearing } from './tearing.mjs';
 import {
   button,
@@ -734,6 +735,7 @@ await checkMotion(harness, visit);
 await checkKnit(harness, visit);
 await checkLevels(harness, visit);
 await checkConvergence(harness, visit);
+await checkSweepTable(harness, visit);
 await checkTearing(harness, visit);
 await checkFabrics(harness);
 await checkModes(harness);

@@ -2,7 +2,13 @@
 
 import { button, element } from '../../../shared/panels/element';
 import { createNumberTable } from '../../../shared/panels/number-table';
-import { digits, milliseconds, percent, smallLength } from '../../../shared/panels/quantity';
+import {
+  digits,
+  milliseconds,
+  percent,
+  shortTime,
+  smallLength,
+} from '../../../shared/panels/quantity';
 import { warningSentence } from '../../../shared/panels/warning-words';
 import type { BenchRow } from '../../bindings/sweep-module';
 import { hasFinished } from '../../state/sweep-plan';
@@ -13,6 +19,14 @@ import { type PlotContent, titleOf } from './speed-error-plot';
 
 /** The two lines of a cell. */
 type Cell = [string, string];
+
+/** Least time that milliseconds have too many digits for [ms]. */
+const LONG_MS = 10000;
+
+/** Wall time of a frame; seconds and minutes where it is long. */
+function frameTime(ms: number | null): string {
+  return ms !== null && ms >= LONG_MS ? shortTime(ms) : milliseconds(ms);
+}
 
 /** Each column's title, and what its second line is. */
 function heads(meshError: MeshError): Cell[] {
@@ -40,7 +54,7 @@ function cells(row: BenchRow, meshError: MeshError): Cell[] {
   const shares: Cell[] =
     meshError === 'known' ? [[smallLength(row.method_error_m), meshText(row, meshError)]] : [];
   return [
-    [milliseconds(row.ms_per_frame), milliseconds(row.spread_ms)],
+    [frameTime(row.ms_per_frame), frameTime(row.spread_ms)],
     errorCell(row),
     ...shares,
     [percent(row.rms_stretch), percent(row.largest_stretch)],
