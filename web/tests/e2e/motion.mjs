@@ -26,6 +26,9 @@ const N_PRESSES = 20;
 /** So much of the cloth is seen on the first screen at least. */
 const LEAST_STAGE_PX = 150;
 
+/** Between a word and the border around it there is so much at least. */
+const LEAST_ROOM_PX = 3;
+
 /** Places all over a disc, as a sunflower has its seeds. */
 function seedsOf({ x, y, radius }) {
   const turn = Math.PI * (3 - Math.sqrt(5));
@@ -329,6 +332,31 @@ async function checkFirstVisit({ check, open }, visit) {
               .map((cell) => cell.textContent),
           );
         expectThat(cut.length === 0, `at ${width} px: ${cut.join(', ')}`);
+      }
+    }),
+  );
+
+  await check('no time of a step touches the border of its level, however long it is', () =>
+    visit('#scene=curtain&level=0', async (page) => {
+      const times = ['0.0012 ms', '> 9.8 min', '≈ 0.001 ms', '> 98000 min', '9.8 min'];
+      for (const width of [320, 390, 720, 1280]) {
+        await page.setViewportSize({ width, height: 800 });
+        const rooms = await page.locator('.levels label').evaluateAll(
+          (labels, words) =>
+            labels.map((label, at) => {
+              const time = label.querySelector('small');
+              time.textContent = words[at];
+              const written = document.createRange();
+              written.selectNodeContents(time);
+              const [box, text] = [label, written].map((part) => part.getBoundingClientRect());
+              return Math.min(text.left - box.left, box.right - text.right);
+            }),
+          times,
+        );
+        expectThat(
+          rooms.every((room) => room >= LEAST_ROOM_PX),
+          `at ${width} px there are ${rooms.join(', ')} px beside ${times.join(', ')}`,
+        );
       }
     }),
   );
