@@ -22,11 +22,13 @@ const lengthOf = (values: ArrayLike<number>, at: number) =>
   Math.hypot(values[at] ?? 0, values[at + 1] ?? 0, values[at + 2] ?? 0);
 
 /** The bar in the page's cubes, or another body that is opened so. */
-function study(module: ModalModule, kind: 'bar' | 'sheet' | 'skirt') {
+function study(module: ModalModule, kind: 'bar' | 'sheet' | 'skirt' | 't_shirt') {
   const run = new module.ModalStudy(fabricsText);
   if (kind === 'bar') run.openBox(JSON.stringify({ sides_m: BAR_SIDES_M, cells: 3 }));
-  else if (kind === 'skirt')
-    run.openObj(readFileSync(new URL('../../../assets/meshes/skirt.obj', import.meta.url), 'utf8'));
+  else if (kind === 'skirt' || kind === 't_shirt')
+    run.openObj(
+      readFileSync(new URL(`../../../assets/meshes/${kind}.obj`, import.meta.url), 'utf8'),
+    );
   else {
     const source = modelOf('sheet')?.source;
     run.openScene(source?.kind === 'scene' ? source.text : '');
@@ -163,5 +165,31 @@ describe('the words of modes', { timeout: 120000 }, () => {
     );
     skirt.end();
     expect((farthest.y - low) / (high - low)).toBeLessThan(0.05);
+  });
+
+  it('say that a T-shirt’s second mode flattens its body and leaves the sleeves alone', () => {
+    expect(modelOf('t-shirt')?.caption).toMatch(/second mode flattens the body and leaves the sl/);
+    const shirt = study(module, 't_shirt');
+    const { shape } = shirt;
+    const half = Math.max(...shape.filter((_, k) => k % 3 === 0));
+    for (const energy of ['volume', 'surface'] as const) {
+      const move = shirt.moves(energy)[1] ?? new Float32Array(0);
+      const meanOf = (isIn: (x: number, z: number) => boolean, of: (at: number) => number) => {
+        const values = Array.from({ length: shape.length / 3 }, (_, vertex) => 3 * vertex)
+          .filter((at) => isIn(shape[at] ?? 0, shape[at + 2] ?? 0))
+          .map(of);
+        return values.reduce((sum, value) => sum + value, 0) / values.length;
+      };
+      const isBody = (x: number) => Math.abs(x) < 0.4 * half;
+      const along = (at: number) => move[at + 2] ?? 0;
+      const front = meanOf((x, z) => isBody(x) && z > 0, along);
+      const back = meanOf((x, z) => isBody(x) && z < 0, along);
+      const far = (at: number) => lengthOf(move, at);
+      const [body, sleeves] = [meanOf(isBody, far), meanOf((x) => Math.abs(x) > 0.6 * half, far)];
+      expect(front * back, energy).toBeLessThan(0);
+      expect(Math.min(Math.abs(front), Math.abs(back)) / body, energy).toBeGreaterThan(0.8);
+      expect(sleeves / body, energy).toBeLessThan(0.1);
+    }
+    shirt.end();
   });
 });

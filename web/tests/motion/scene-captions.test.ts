@@ -92,4 +92,31 @@ describe('the caption of', { timeout: 120000 }, () => {
     expect(ofFreeFall(0.4)).toBeLessThan(0.7);
     expect(heightOf(4)).toBeGreaterThan(0.3);
   });
+
+  it('the free-fall drape: coarser levels carry a jerk of the corners through the whole sheet', async () => {
+    const module = await loadFirst();
+    const scene = sceneOf('free_fall_drape');
+    expect(scene.caption).toMatch(/jerk is felt in the whole sheet at once: coarser levels carry/);
+    const CAUGHT_S = 1;
+    const JERK_M = 0.01;
+    /** Height of the free edge a step after the corners were caught, which then jump up by so much. */
+    const heightOf = (jump: number, method: object) => {
+      const motion = {
+        kind: 'ease',
+        offset_m: [0, jump, 0],
+        begin_s: CAUGHT_S,
+        end_s: CAUGHT_S + 1 / STEPS_PER_SECOND,
+      };
+      const pins = ['upper_left', 'upper_right'].map((part) => ({ part, motion }));
+      const { rest, simulation, at } = begin(module, { ...scene, pins, method });
+      const now = at(CAUGHT_S + 1 / STEPS_PER_SECOND);
+      simulation.delete();
+      return mean(those(rest, now, ({ z }) => isNear(z, 0.5)).map(({ y }) => y));
+    };
+    const felt = (method: object) => heightOf(JERK_M, method) - heightOf(0, method);
+    expect(felt(scene.method as object)).toBeGreaterThan(JERK_M / 2);
+    // One sweep of the same projections, without levels: it goes a few rows far.
+    const sweep = { stepper: 'pbd', step_s: 1 / STEPS_PER_SECOND, substeps: 1, iterations: 1 };
+    expect(Math.abs(felt(sweep))).toBeLessThan(JERK_M / 1e4);
+  });
 });

@@ -129,4 +129,16 @@ describe('a method', { timeout: 120000 }, () => {
     expect(ok).toBe(false);
     expect(Number(/\((\d+) substeps would do\)/.exec(what)?.[1])).toBeGreaterThan(20);
   });
+
+  it('rk4 is very exact for as many looks at the forces, and slow: all of its substeps are tiny', async () => {
+    expect(meaningOf('rk4')).toMatch(/four looks at the forces a substep. Very exact, and slow/);
+    const LOOKS = 4;
+    const FEW = 800; // the sheet is stable from 775 substeps on
+    const placesOf = async (stepper: string, substeps: number) =>
+      (await swung({ stepper, substeps }, 0, 0.1)).places;
+    const [coarse, fine] = [await placesOf('rk4', FEW), await placesOf('rk4', 2 * FEW)];
+    const plain = await placesOf('explicit', LOOKS * FEW);
+    expect(rmsApart(coarse, fine)).toBeLessThan(1e-3 * rmsApart(plain, fine));
+    await expect(swung({ stepper: 'rk4', substeps: FEW / 4 }, 0)).rejects.toThrow();
+  });
 });

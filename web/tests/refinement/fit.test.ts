@@ -9,6 +9,8 @@ import {
   fitReading,
   ruleSentence,
 } from '../../src/refinement/panels/fit-words';
+import type { ExampleClient } from '../../src/refinement/run/garment-client';
+import { ExamplePlanner } from '../../src/refinement/run/planner';
 import { sceneFiles } from '../../src/refinement/run/scene-files';
 import { type Fit, LastingShare } from '../../src/refinement/state/fit';
 import { FRAMES_TO_FIRE, LARGEST_SHARE } from '../../src/refinement/state/garment-frames';
@@ -20,6 +22,7 @@ import {
   initialRefinementState,
   isExample,
 } from '../../src/refinement/state/refinement-state';
+import type { ToExample } from '../../src/refinement/worker/garment-protocol';
 import { readRecording } from '../../src/refinement/worker/recording';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { loadModule } from '../support/built-module';
@@ -133,6 +136,23 @@ describe('the light', () => {
     const walk = { ...squat, motion: 'walk' as const };
     expect(isExample(walk)).toBe(true);
     expect(canPlanAnew({ ...walk, fabric: 'silk' })).toBe(true);
+  });
+
+  it('foretells how many frames of how many vertices that plan takes', async () => {
+    const fine = { ...STATE.panes.fine, nVertices: 10500 };
+    const fired = { ...STATE, phase: 'ready' as const, motion: 'squat' as const, fit: FIRED };
+    const words = anewSentence({ ...fired, panes: { ...STATE.panes, fine } });
+    const [, frames] = /: (\d+) frames of 10\u202f500 vertices\.$/.exec(words) ?? [];
+    const asked: ToExample[] = [];
+    const ask = async (question: ToExample) => {
+      asked.push(question);
+      return { share: 1, plan: {} };
+    };
+    const planner = new ExamplePlanner(() => ({ ask }) as unknown as ExampleClient, recordBytes);
+    await planner.plan({ ...STATE, further: ['squat'] });
+    const begun = asked.find(({ type }) => type === 'begin');
+    if (begun?.type !== 'begin') throw new Error('no example was begun');
+    expect(Number(frames)).toBe(Math.round(begun.toS / begun.frameS));
   });
 
   it('goes by no share before as many frames were seen as it has to last', () => {

@@ -164,7 +164,7 @@ export const CASES: readonly FailureCase[] = [
     id: 'stiff_in_one_substep',
     title: 'Spikes',
     lesson:
-      'The same cloth, position-based: springs that are corrected in turn undo each other’s work, and one substep ends long before they agree. It stretches to more than ten times its length, turns inside out and throws out spikes.',
+      'The same cloth, position-based: springs that are corrected in turn undo each other’s work, and one substep ends long before they agree. It stretches to more than ten times its length, faces turn their backs on their neighbours, and spikes stand out.',
     remedy: 'Thirty substeps of a thirtieth of the length: each has little to correct.',
     scene: STIFF_SWING,
     naive: IN_ONE_SUBSTEP,

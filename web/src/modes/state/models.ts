@@ -100,7 +100,8 @@ export const MODELS: readonly Model[] = [
   {
     id: 't-shirt',
     title: 'T-shirt',
-    caption: 'A T-shirt that nobody wears: sleeves and body flatten in turn.',
+    caption:
+      'A T-shirt that nobody wears: its second mode flattens the body and leaves the sleeves alone.',
     source: { kind: 'obj', url: meshUrl('t_shirt') },
     lookId: 9,
   },

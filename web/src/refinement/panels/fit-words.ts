@@ -1,7 +1,7 @@
 // The words of the light that tells whether the shown motion is of the examples' kind.
 import { percent } from '../../shared/panels/quantity';
 import type { Fit } from '../state/fit';
-import { FRAMES_TO_FIRE, LARGEST_SHARE } from '../state/garment-frames';
+import { EXAMPLE_FRAMES, FRAMES_TO_FIRE, LARGEST_SHARE } from '../state/garment-frames';
 import { MOTIONS, type MotionId, usualFabric } from '../state/garments';
 import type { PlanStory } from '../state/plan-file';
 import {
@@ -10,6 +10,7 @@ import {
   type RefinementLink,
   type RefinementState,
 } from '../state/refinement-state';
+import { vertices } from './garment-words';
 
 /** Frames of a second: before that a motion that fits and one that does not look alike. */
 export const FRAMES_TO_FIT = 30;
@@ -96,7 +97,8 @@ export function fitReading(fit: Fit | null, story: PlanStory | null, shown: Show
 
 /** Says below the button that plans anew what it does, or why it does nothing now. */
 export function anewSentence(state: RefinementState): string {
-  if (canPlanAnew(state)) return 'Runs it once on the fine mesh first: half a minute or so.';
+  if (canPlanAnew(state))
+    return `Runs it once on the fine mesh first: ${EXAMPLE_FRAMES} frames of ${vertices(state.panes.fine.nVertices)}.`;
   if (isExample(state)) return 'The plan is made of this motion already.';
   return 'For a motion that does not fit, once the light says so.';
 }

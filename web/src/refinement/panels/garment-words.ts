@@ -185,7 +185,7 @@ export function sourceSentence(state: RefinementState): string {
   if (here.length > 0) sentences.push(`Computed on this device: ${here.join(', ')}.`);
   if (method === 'multigrid')
     sentences.push(
-      'Steps are position-based, on coarser and coarser levels of each mesh: the fine skirt takes a third of the time of implicit steps, and other ways from the first second on.',
+      'Steps are position-based, on coarser and coarser levels of each mesh. The badges tell what a frame costs.',
     );
   if (substeps !== null && here.length > 0)
     sentences.push(`Each of their steps is made in ${substeps} substeps, until another motion.`);

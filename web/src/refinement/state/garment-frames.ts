@@ -15,6 +15,9 @@ export const SETTLED_S = 2;
 /** How long an example that is run on this device is watched: the longest cycle of a motion [s]. */
 export const SEEN_S = 3;
 
+/** Frames that such an example takes. */
+export const EXAMPLE_FRAMES = Math.round((SETTLED_S + SEEN_S) / FRAME_S);
+
 /** One in so many of an example's frames is kept for a plan's limits. */
 export const KEPT_OF = 3;
 
