@@ -7,6 +7,7 @@ import { type Store, watch } from '../shared/state/store';
 import { createConvergencePanel } from './panels/convergence/convergence-panel';
 import { createEnergyPanel } from './panels/energy/energy-panel';
 import { createLevelPanel } from './panels/levels/level-panel';
+import { createOneSubstep } from './panels/method/one-substep';
 import { createSweepPanel } from './panels/speed-error/sweep-panel';
 import { later } from './run/later';
 import type { MotionRun } from './run/motion-run';
@@ -72,6 +73,7 @@ export function createLowerPanels(
 ): void {
   const panel = place('panel');
   linkBanner(place('messages'), store);
+  createOneSubstep(panel, store, run);
   const showChart = createSweepTray(place('tray'), store, run);
   createSweepPanel(panel, store, createLaterSweep(store), showChart);
   createLevelPanel(panel, store);

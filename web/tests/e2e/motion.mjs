@@ -431,6 +431,30 @@ async function checkRefused({ check, open }) {
   );
 
   await check(
+    'from the first view a method is made to fail, told, and healed in three presses',
+    async () => {
+      const { page, close } = await open('');
+      await isReady(page);
+      const press = button(page, 'See what one substep does');
+      expectThat(!(await press.isVisible()), 'it is there for a method that solves its equations');
+      await choice(page, 'Method').selectOption({ label: 'XPBD' });
+      await isReady(page);
+      await press.click();
+      const { problem, setting } = await until(page, (state) => state.problem?.remedy);
+      expectThat(setting.substeps === 1, `${setting.substeps} substeps`);
+      expectThat(
+        /^(The run has exploded|The cloth stretches too much): /.test(problem.sentence),
+        problem.sentence,
+      );
+      expectThat(!(await press.isVisible()), 'it is there where there is one substep already');
+      await button(page, problem.remedy.title).click();
+      const healed = await until(page, ({ problem: now, numbers }) => now || numbers?.time_s > 1.5);
+      expectThat(healed.problem === null, `it says: ${healed.problem?.sentence}`);
+      await close();
+    },
+  );
+
+  await check(
     'a stepper that sweeps holds as it starts, at each level that it is offered for',
     async () => {
       const { page, close } = await open('#scene=tablecloth&level=1');

@@ -56,6 +56,18 @@ describe('settings that nobody has touched', () => {
     expect(told).toEqual({});
   });
 
+  it.each(['curtain', 'tablecloth'] as const)(
+    'hold by their substeps: with a single one the %s does not',
+    { timeout: 120000 },
+    async (preset) => {
+      for (const name of ['xpbd', 'pbd']) {
+        const setting = withStepper(presetSetting(preset), name);
+        expect(setting.substeps, name).toBeGreaterThan(1);
+        expect(await nonsenseOf({ ...setting, substeps: 1 }), name).not.toEqual([]);
+      }
+    },
+  );
+
   it('have more substeps on finer meshes and in longer steps, with steppers that sweep', () => {
     const pbd = stepperRow('pbd');
     expect([8, 16, 32, 64].map((n) => leastSubsteps(pbd, n, 1 / 60))).toEqual([4, 7, 13, 26]);
