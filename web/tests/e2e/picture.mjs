@@ -29,7 +29,7 @@ const VIEWS = [
     },
   },
   {
-    hash: '#view=refinement&garment=slim_trousers&beside=even&fine-cloth=on&colour=material&start=4',
+    hash: '#view=refinement',
     perRow: 2,
     show: (page) =>
       until(
