@@ -92,7 +92,7 @@ function scene(load, bending, name, cloth, line) {
       bend_warp_n_m: rigidity,
       bend_weft_n_m: rigidity,
     },
-    model: { elasticity: 'membrane', bending },
+    model: { elasticity: 'membrane', bending, ...(bending === 'fitted' && { torsion: 1 }) },
     pins: [{ vertices: [...Array(2 * line).keys()] }],
     method: { stepper: 'newton', rule: 'equilibrium', step_s: kStep }, // a length of no effect
     duration_s: kStep,

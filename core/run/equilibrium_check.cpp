@@ -24,11 +24,11 @@ constexpr int kMaxCorrections = 4;
 constexpr int kMaxRounds = 10;
 /// Change of the share from round to round that ends them.
 constexpr double kShareAccuracy = 0.005;
-/// Share that is far too large, whatever the contacts come to: once it is not below so many times
-/// that of the round before, further rounds only say how large. They may never end, one vertex
-/// slipping where another sticks.
+/// Share that is far too large, whatever the contacts come to. Further rounds only say how large,
+/// and may never end, one vertex slipping where another sticks.
 constexpr double kFarTooLarge = 0.1;
-constexpr double kFalls = 0.8;
+/// Shares of the round before above which a share falls no longer.
+constexpr double kSlowestFall = 0.8;
 /// Rounds in which vertices that are new on a solid are held before they are judged.
 constexpr int kRoundsOfNewContacts = 2;
 /// Change of friction from round to round, in shares of it, that asks for another one.
@@ -295,7 +295,7 @@ std::optional<double> EquilibriumCheck::unbalanced_share(const State& state, dou
     if (!take_contact_forces()) break;
     const bool is_known = round > 0 && std::abs(share - before) <= kShareAccuracy;
     const bool is_far_off =
-        round >= kRoundsOfNewContacts && share > kFarTooLarge && share >= kFalls * before;
+        round >= kRoundsOfNewContacts && share > kFarTooLarge && share >= kSlowestFall * before;
     if (is_known || is_far_off) break;
   }
   return share;

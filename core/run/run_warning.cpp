@@ -54,8 +54,8 @@ std::string sentence(const RunWarning& warning) {
           time);
     case RunWarning::Kind::unbalanced:
       return formatted(
-          "from %.3g s on, cloth at rest was held up by too few rounds, not by the cloth: %.3g %% "
-          "of its weight was unbalanced",
+          "from %.3g s on, cloth at rest was held up by what its steps leave unsolved, not by the "
+          "cloth: %.3g %% of its weight was unbalanced",
           time, share);
   }
   return "";

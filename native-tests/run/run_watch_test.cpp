@@ -355,9 +355,10 @@ TEST_CASE("run_watch: what did not converge is told as that", "[run]") {
 TEST_CASE("run_watch: cloth that rounds hold up is told by its share of the weight", "[run]") {
   const RunWarning warning{RunWarning::Kind::unbalanced, 2, VertexId(0), 0.34, 0.05, {}};
   CHECK_FALSE(warning.is_nonsense());
-  CHECK(sentence(warning) ==
-        "from 2 s on, cloth at rest was held up by too few rounds, not by the cloth: 34 % of its "
-        "weight was unbalanced");
+  CHECK(
+      sentence(warning) ==
+      "from 2 s on, cloth at rest was held up by what its steps leave unsolved, not by the cloth: "
+      "34 % of its weight was unbalanced");
 }
 
 TEST_CASE("run_watch: a warning names its place, its bound and what to try", "[run]") {

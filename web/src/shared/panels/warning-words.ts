@@ -30,6 +30,6 @@ export function warningSentence({ kind, time_s, value, bound }: RunWarning): str
     case 'soft':
       return `The cloth stretches like a softer fabric: ${since} ${stretchText(value)}, where its own would by ${percent(bound)}.`;
     case 'unbalanced':
-      return `Too few rounds hold the cloth up, not its threads: ${since} ${percent(value)} of its weight is unbalanced.`;
+      return `Steps that leave too much unsolved hold the cloth up, not its threads: ${since} ${percent(value)} of its weight is unbalanced.`;
   }
 }
