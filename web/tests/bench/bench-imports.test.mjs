@@ -14,4 +14,14 @@ describe('benches', () => {
     const outside = imports.filter((path) => !/^(\.\/[\w./-]+\.mjs|node:[\w/]+)$/.test(path));
     expect(outside).toEqual([]);
   });
+
+  it('have programs of the page that take its code as Vite makes it', () => {
+    const here = new URL('./', import.meta.url);
+    const programs = readdirSync(here).filter((name) => !name.endsWith('.test.mjs'));
+    const direct = programs.filter((name) =>
+      readFileSync(new URL(name, here), 'utf8').includes("from '../../src/"),
+    );
+    expect(programs.length).toBeGreaterThan(4);
+    expect(direct).toEqual([]);
+  });
 });

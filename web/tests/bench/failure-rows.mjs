@@ -1,13 +1,13 @@
 // npm run failure-rows: each case of the view of failures by both of its methods, in WebAssembly; one line of JSON for
 // each: when the naive side shows its sign, whether ours shows any, and what a step of both takes.
-import { readFileSync } from 'node:fs';
 import { firstCore } from '../../build-steps/built-core.ts';
-import { CASES, SIDES, STEP_S, sceneTextOf } from '../../src/failures/state/failure-cases.ts';
+import { openPageCode } from './page-code.mjs';
 
-const fabricsText = readFileSync(
-  new URL('../../../assets/fabrics/fabrics.json', import.meta.url),
-  'utf8',
+const code = await openPageCode();
+const { CASES, SIDES, STEP_S, sceneTextOf } = await code.load(
+  '/src/failures/state/failure-cases.ts',
 );
+const { fabricsText } = await code.load('/src/shared/fabric/fabric-data.ts');
 
 function median(values) {
   const sorted = [...values].sort((a, b) => a - b);
@@ -53,3 +53,5 @@ for (const one of CASES) {
   };
   console.log(JSON.stringify(row));
 }
+await code.close();
+process.exit();
