@@ -15,8 +15,9 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-SOURCE_FOLDERS = ("core", "cli", "wasm", "native-tests", "bench", "web/src")
-SUFFIXES = (".h", ".cpp", ".mjs", ".ts")
+SOURCE_FOLDERS = ("core", "cli", "wasm", "native-tests", "bench", "web/src", "web/tests", "web/build-steps")
+SOURCE_FILES = "web/*.ts"  # settings of the page's build and tests
+SUFFIXES = (".h", ".cpp", ".mjs", ".js", ".ts")
 BUILT = "web/src/wasm"
 PREPOSITIONS = ("about above across after against along among around as at before behind below beneath beside besides "
                 "between beyond by despite down during for from if in inside into of off on onto out outside over past "
@@ -79,10 +80,10 @@ def judge(comment):
 
 def check_tree(root):
     """Every violation under `root`, as a printable line."""
-    files = sorted(path for folder in SOURCE_FOLDERS for path in (root / folder).rglob("*")
-                   if path.suffix in SUFFIXES and root / BUILT not in path.parents)
+    files = [path for folder in SOURCE_FOLDERS for path in (root / folder).rglob("*")
+             if path.suffix in SUFFIXES and root / BUILT not in path.parents]
     violations = []
-    for path in files:
+    for path in sorted([*files, *root.glob(SOURCE_FILES)]):
         name = path.relative_to(root).as_posix()
         violations += [f"{name}:{comment.line}: {judge(comment)}"
                        for comment in comments_of(path.read_text(encoding="utf-8")) if judge(comment)]
@@ -108,7 +109,13 @@ PLANTED = {  # path: (text, expected violation or None)
     "core/mesh/quote.cpp": ("char a = '\"';  // of a quote\n", 'opens on "of"'),
     "web/src/block.ts": ("/** Name of a view. */\n/**\n * Without a name.\n */\n", ':2: a doc comment opens on "With'),
     "web/src/text.ts": ("const a = `\n// of a template\n`;\n/* of no doc */\n", None),
+    "web/src/wasm/built.js": ("// Of a tool.\n", None),
+    "web/tests/e2e/view.mjs": ("/** Waits. */\n/** What is seen. */\n", ':2: a doc comment opens on "What"'),
+    "web/tests/motion/hand.test.ts": ("a(); // at the pins\n", ':1: a comment opens on "at"'),
+    "web/build-steps/worker.js": ("// Without a network.\n", 'opens on "Without"'),
+    "web/vite.config.ts": ("/** Of the state. */\n", 'opens on "Of"'),
     "bench/row.mjs": ("// What a row says.\n", 'opens on "What"'),
+    "bench/parts/part.mjs": ("/** Of a part. */\n", 'opens on "Of"'),
 }
 
 

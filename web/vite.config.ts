@@ -9,7 +9,7 @@ import { stepperRows } from './build-steps/stepper-rows.ts';
 
 const repository = fileURLToPath(new URL('..', import.meta.url));
 
-/** Of the state, what a first load takes. */
+/** Files of the state that a first load takes. */
 const FIRST_STATE =
   /src\/(motion|shared)\/(state|steppers)\/(?!sweep-cost|obj-file|convergence)|pleat-steppers/;
 
@@ -34,7 +34,7 @@ export default defineConfig({
   worker: { format: 'es', rolldownOptions: { output: NAMES } },
   build: {
     target: 'es2022',
-    // What a later part imports is mostly here already: a list of it would weigh more than it gains.
+    // Imports of a later part are mostly here already: a list of them would weigh more than it gains.
     modulePreload: { polyfill: false, resolveDependencies: () => [] },
     assetsInlineLimit: 0, // the content policy allows no data: but images
     chunkSizeWarningLimit: 800, // three.js; the budget is what counts
@@ -43,7 +43,7 @@ export default defineConfig({
       optimization: { inlineConst: false },
       output: {
         ...NAMES,
-        // What the first load shares with later parts is one file, which packs better than four.
+        // One file holds what the first load shares with later parts: it packs better than four.
         advancedChunks: { groups: [{ name: 'state', test: FIRST_STATE }] },
       },
     },

@@ -5,7 +5,7 @@ import type { Plugin } from 'vite';
 
 const QUERY = '?raw';
 
-/** Of the notes of the fabric file, those that the page and its module read. */
+/** Notes of the fabric file that the page and its module read. */
 const READ_OF_META = ['sources', 'confidence'];
 
 function fabricsRead({ meta, fabrics }: { meta: object; fabrics: unknown }): object {

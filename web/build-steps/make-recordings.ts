@@ -28,7 +28,7 @@ import {
 } from '../src/refinement/worker/recording.ts';
 import { builtCore } from './built-core.ts';
 
-/** Of the density of air, by which a second run on the fine mesh has another chance. */
+/** Share of the density of air that is added, so that a second run on the fine mesh has another chance. */
 const AIR_CHANGE = 1e-6;
 
 /** Duration of the frames of the test motion [s]. */

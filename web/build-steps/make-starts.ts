@@ -21,7 +21,7 @@ const root = fileURLToPath(new URL('../..', import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), 'pleat-starts-'));
 const readJson = (path: string) => JSON.parse(readFileSync(join(root, path), 'utf8'));
 
-/** Where the cloth of a scene is when all has come to rest, on this mesh. */
+/** Places of the cloth of a scene when all has come to rest, on this mesh. */
 function settled(name: string, refinement?: object): number[][] {
   const { start: _, ...scene } = readJson(`assets/scenes/garments/${name}.json`);
   const motion = readJson(join('assets/scenes/garments', scene.figure.motion));

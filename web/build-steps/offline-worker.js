@@ -56,7 +56,7 @@ self.addEventListener('message', (event) => {
     const kept = await caches.open(ON_DEMAND_NAME);
     for (const url of event.data) {
       if (!onDemand.has(url) || (await kept.match(url))) continue;
-      await kept.add(url).catch(() => undefined); // what failed for the page fails here too
+      await kept.add(url).catch(() => undefined); // a fetch that failed for the page fails here too
     }
   };
   event.waitUntil(keep());

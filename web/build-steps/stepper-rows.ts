@@ -22,7 +22,7 @@ async function tables(): Promise<{ steppers: unknown; details: Detail[] }> {
   return answer;
 }
 
-/** What it takes to read a detail, without what people are told of it. */
+/** A detail as links are read by, without its words for people. */
 function readable({ key, words, least, most, beside }: Detail): object {
   return { key, words: words?.map(({ value }) => value), least, most, beside };
 }

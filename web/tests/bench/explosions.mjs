@@ -27,8 +27,8 @@ const kExplosions = [
   'scene=ball&stepper=imex&substeps=1&step=1/30',
 ];
 
-const kToldS = 2.5; // by then each is told [s of motion]
-const kHealedS = 4; // as long is a remedy watched, from where it begins [s of motion]
+const kToldS = 2.5; // end of the time in which each is told [s of motion]
+const kHealedS = 4; // a remedy is watched so long from where it begins [s of motion]
 const kPatienceMs = 120000;
 const kSpeed = 8; // seconds of motion a second, at most
 

@@ -5,7 +5,7 @@ import { fileURLToPath } from 'node:url';
 import { firstCore } from '../../build-steps/built-core.ts';
 import { openPageCode } from './page-code.mjs';
 
-const kSliceMs = 150; // as in sweep-core.ts
+const kSliceMs = 150; // SWEEP_SLICE_MS of sweep-core.ts
 const kWish = { finest: 1, withSlow: false, ofShown: false };
 const kFolder = fileURLToPath(
   new URL('../../../assets/references/sweep/swinging_sheet/', import.meta.url),

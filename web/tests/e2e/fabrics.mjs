@@ -324,7 +324,7 @@ export async function checkFabrics(harness) {
     visit('#view=fabrics&scene=terms', async (page) => {
       const before = await positionsOf(page);
       await page.getByRole('radio', { name: 'Pin', exact: true }).check({ force: true });
-      const { x, y } = await placeOn(page, 32); // beside the corner, in its pin
+      const { x, y } = await placeOn(page, 32); // next to the corner, in its pin
       await page.mouse.click(x, y);
       await until(page, (state) => state.pins.length === 3);
       await isFound(page);

@@ -14,7 +14,7 @@ const LED_TO = {
 };
 
 const isLoaded = (page) => until(page, (state) => state.phase === 'ready' && state.sides);
-/** Of a side, as it is read above its pane. */
+/** Words of a side, read above its pane. */
 const badgeOf = (page, title) =>
   page.locator('.side-badge').filter({ hasText: title }).textContent();
 
@@ -72,7 +72,7 @@ export async function checkFailures(harness) {
         await button(page, 'Reset').click();
         await until(page, (state) => state.phase === 'ready' && state.timeS === 0);
         const before = await positionsOf(page, pane);
-        const vertex = before.length / 3 - 13; // in the middle of the last row
+        const vertex = before.length / 3 - 13; // middle of the last row
         const at = await page.evaluate(([v, p]) => window.pleat.project(v, p), [vertex, pane]);
         const [x, y] = [box.x + at.x, box.y + at.y];
         await page.mouse.move(x, y);

@@ -7,10 +7,10 @@ const SWITCHES = [
   '--use-angle=swiftshader',
   '--enable-unsafe-swiftshader',
   '--disable-dev-shm-usage',
-  '--disable-gpu-compositing', // by software, what is beside the canvas costs less without WebGL
+  '--disable-gpu-compositing', // software composes a page at less cost without its WebGL
 ];
 
-/** What the driver says of a canvas that is composed by software. */
+/** Words of the driver on a canvas that is composed by software. */
 const READ_BACK = /GPU stall due to ReadPixels/;
 
 /** Software rendering on a busy machine is slow, not broken [ms]. */

@@ -1,4 +1,4 @@
-// What a visitor can do with a knitted cloth: see its stitches, change its numbers, and be told which cannot be.
+// A visitor of a knitted cloth can see its stitches, change its numbers, and be told which cannot be.
 import { eventually, expectThat, isReady, stateOf, until } from './harness.mjs';
 import { button, choice, expectAccessible, picture } from './visitor.mjs';
 

@@ -2,13 +2,13 @@
 import { eventually, expectThat, isReady, stateOf, until } from './harness.mjs';
 import { button, choice, expectAccessible, picture, placeOn } from './visitor.mjs';
 
-/** Of the marks, that are seen at least: some lie behind the cloth. */
+/** Least share of the marks that is seen: some lie behind the cloth. */
 const SEEN = 0.5;
 
 const hasLevels = (page) =>
   until(page, ({ phase, coarseLevels }) => phase === 'ready' && coarseLevels !== null);
 
-/** Where the vertices are seen that the first level keeps, in pixels of the picture. */
+/** Places of the vertices that the first level keeps, in pixels of the picture. */
 const keptPlaces = (page) =>
   page.evaluate(() => {
     const [{ vertices }] = window.pleat.state().coarseLevels.levels;

@@ -1,4 +1,4 @@
-// What a visitor of the view of motion has to be able to trust: the first press, links, and an end to waiting.
+// A visitor of the view of motion has to be able to trust the first press, links, and an end to waiting.
 import {
   eventually,
   expectThat,
@@ -26,7 +26,7 @@ const N_PRESSES = 20;
 /** So much of the cloth is seen on the first screen at least. */
 const LEAST_STAGE_PX = 150;
 
-/** Between a word and the border around it there is so much at least. */
+/** Least distance between a word and the border around it. */
 const LEAST_ROOM_PX = 3;
 
 /** Places all over a disc, as a sunflower has its seeds. */
@@ -38,7 +38,7 @@ function seedsOf({ x, y, radius }) {
   });
 }
 
-/** Where the ring of the invitation is on the page. */
+/** The ring of the invitation on the page. */
 async function ringOf(page) {
   const ring = page.locator('.invitation-ring');
   await ring.waitFor();

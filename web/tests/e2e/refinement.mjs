@@ -379,7 +379,7 @@ export async function checkRefinement(harness) {
         const areRecorded = sources.every((source) => source === 'recorded');
         expectThat(areRecorded, `the frames are ${sources}`);
         expectThat(problem === null, `it says: ${problem?.what}`);
-        // From the second visit on the worker sees what is fetched.
+        // The worker sees what is fetched from the second visit on.
         await page.context().setOffline(false);
         await choice(page, 'Garment').selectOption('Trousers');
         await areKept(8);

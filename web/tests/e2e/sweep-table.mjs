@@ -13,7 +13,7 @@ const EXPLODED = {
   hints: {},
 };
 
-/** What a row may hold where cloth is slow, far off, untold or unsound. */
+/** Rows of cloth that is slow, far off, untold or unsound. */
 const WIDE = [
   { ms_per_frame: 1234, spread_ms: 987, position_error_m: 1.234, method_error_m: 8.765e-5 },
   { ms_per_frame: 9.87e6, spread_ms: 9876, largest_stretch: 98.7, rms_stretch: 12.3 },

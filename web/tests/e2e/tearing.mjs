@@ -1,4 +1,4 @@
-// What a visitor can do with cloth that tears: pull until it does, let go, and have it whole again.
+// A visitor can pull cloth until it tears, let go, and have it whole again.
 import { expectThat, momentUntil, positionsOf, stateOf, until } from './harness.mjs';
 import { button, expectAccessible, picture, placeOn } from './visitor.mjs';
 

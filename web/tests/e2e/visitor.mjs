@@ -1,4 +1,4 @@
-// What a visitor does and sees, for the checks of every view.
+// Acts as a visitor and reads the page, for the checks of every view.
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { eventually, expectThat, until } from './harness.mjs';
@@ -10,7 +10,7 @@ export const canvasOf = (page) => page.locator('canvas').filter({ visible: true 
 export const picture = (page) => canvasOf(page).screenshot();
 export const button = (page, name) => page.getByRole('button', { name, exact: true });
 export const choice = (page, name) => page.getByRole('combobox', { name, exact: true });
-/** What the shown view says went wrong. */
+/** The shown view's words on what went wrong. */
 export const alertText = (page) => page.getByRole('alert').filter({ visible: true }).textContent();
 
 /** Nothing serious or critical is found by axe, once what `details` matches is opened. */
@@ -104,7 +104,7 @@ export function createVisitor({ open, check }, isReady, prefix = '') {
     });
   }
 
-  /** Without WebAssembly there is a sentence; `work` looks at what is left, and once it can be had again. */
+  /** A sentence tells that WebAssembly is missing; `work` looks at what is left, and once it can be had again. */
   async function checkWithoutModule(hash, what, work) {
     await check(`${prefix}without its WebAssembly file a sentence, and ${what}`, async () => {
       const files = '**/pleat*.wasm';
@@ -142,7 +142,7 @@ const twoPictures = (page) =>
     () => new Promise((resume) => requestAnimationFrame(() => requestAnimationFrame(resume))),
   );
 
-/** Where a vertex of the first pane is seen, on the page, once that is the same in two pictures. */
+/** Place of a vertex of the first pane on the page, once it is the same in two pictures. */
 export async function placeOn(page, vertex) {
   const place = async () => {
     await twoPictures(page);

@@ -1,4 +1,4 @@
-// What the captions of the shipped experiments say of their shapes, found by the module.
+// The captions of the shipped experiments, held to the shapes that the module finds.
 
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
@@ -84,7 +84,7 @@ const heightOf = (places: Float64Array, vertices: readonly number[]) =>
 
 const only = (...terms: Term[]) => perTerm((term) => (terms.includes(term) ? 1 / terms.length : 0));
 
-/** Of ranks: 1 where both go up together, -1 where one goes down as the other goes up. */
+/** Correlation of ranks: 1 where both go up together, -1 where one goes down as the other goes up. */
 function rankCorrelation(a: readonly number[], b: readonly number[]): number {
   const ranks = (values: readonly number[]) =>
     values.map((value) => values.filter((other) => other < value).length);

@@ -12,10 +12,10 @@ import type { DeformFrame, FromDeform, ToDeform } from '../../src/fabrics/worker
 const ok = (payload: object = {}) => JSON.stringify({ ok: true, ...payload });
 const ONES = { recovery: 1, stretch: 1, bending: 1 };
 
-/** What `settle` answers, one after the other from `beginSettling` on. */
+/** Answers of `settle`, one after the other from `beginSettling` on. */
 type Ways = (keyof typeof WAY)[];
 
-/** After a hand it takes two steps; on its way to the least energy it answers `ways`. */
+/** Takes two steps after a hand; on its way to the least energy it answers `ways`. */
 function recorder(ways: Ways) {
   const calls: string[] = [];
   let nSteps = 0;
@@ -83,7 +83,7 @@ function serve(nPanes: number, ways: Ways, msPerLook = 0) {
     frames.push(message);
   };
   const core = new DeformCore(module, post, { later, nowMs });
-  /** What was asked and shown in so many turns after a message. */
+  /** Calls and pictures of so many turns after a message. */
   function send(message: ToDeform, nTurns = 100): string[] {
     core.receive(message);
     for (let turn = 0; isWoken && turn < nTurns; ++turn) {

@@ -53,7 +53,7 @@ async function open(hash: string) {
     },
     start,
   );
-  /** Until everything that was asked for is answered and every shape is found. */
+  /** Waits until everything that was asked for is answered and every shape is found. */
   async function found() {
     await new Promise((resume) => setTimeout(resume, 30));
     await vi.waitUntil(() => {
@@ -180,7 +180,7 @@ describe('deformer', () => {
     await found();
     const { cloth } = store.get();
     end?.('the browser ended it without a word');
-    deformer.nudge('middle', [0, 0.2, 0]); // before the new one has any cloth
+    deformer.nudge('middle', [0, 0.2, 0]); // the new one has no cloth yet
     expect(store.get().phase).toBe('loading');
     await found();
     const { holds, problem, panes } = store.get();

@@ -26,7 +26,7 @@ const isAlmost = (a: TermNumbers, b: TermNumbers) =>
 
 const most = fabrics.length;
 
-/** What a sentence may say, and the weights of which that is true. */
+/** Sentences, and the weights of which each is true. */
 const CLAIMS: readonly [RegExp, (weights: TermNumbers) => boolean][] = [
   [/weighs recovery most/i, (w) => isTop(w, 'recovery')],
   [/recovery most, then stretch/, (w) => w.stretch > w.bending],

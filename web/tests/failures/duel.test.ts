@@ -35,7 +35,7 @@ function clientOf(module: PleatModule, isDead: () => boolean = () => false): Mot
 function createDuel(module: PleatModule, caseId: string) {
   const store = createStore<FailuresState>(initialFailuresState(caseId, []));
   const shown: (ArrayBuffer | null)[] = [null, null];
-  const ends: (() => void)[] = []; // of the workers, in the order of their start
+  const ends: (() => void)[] = []; // one a worker, in the order of their start
   const view: DuelView = {
     showMesh(pane) {
       shown[pane] = null;

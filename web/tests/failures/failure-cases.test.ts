@@ -134,7 +134,7 @@ function foldedPairs({ positions, triangles }: Run): number {
   return nFolded;
 }
 
-/** What the words of a case say in numbers. */
+/** The words of each case, in numbers. */
 const CLAIMS: Record<string, (naive: Run, ours: Run) => void> = {
   gathered_curtain(naive, ours) {
     expect(naive.mostStretch).toBeGreaterThan(0.8);
@@ -166,7 +166,7 @@ const CLAIMS: Record<string, (naive: Run, ours: Run) => void> = {
   },
   rushing_ball(naive, ours) {
     expect(naive.mostStretch).toBeGreaterThan(5);
-    const [middle, radius] = [0.4, 0.15]; // of the ball at the end, towards the eye
+    const [middle, radius] = [0.4, 0.15]; // the ball at the end, towards the eye
     expect(foremost(naive)).toBeLessThan(middle);
     expect(foremost(ours)).toBeGreaterThan(middle + 0.9 * radius);
   },

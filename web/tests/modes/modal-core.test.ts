@@ -98,7 +98,7 @@ describe('modal core', () => {
     }
     expect(frames[8].straight_volume_m3 / rest).toBeLessThan(0.85);
     expect(frames[8].straight_strain).toBeGreaterThan(2 * frames[8].strain);
-    // What is drawn is the surface of that volume.
+    // The drawn mesh is the surface of that volume.
     const middle = filled.slice(8 * straight.length, 9 * straight.length);
     const drawn = enclosedVolume(middle, study.triangles());
     expect(Math.abs(drawn / rest - 1)).toBeLessThan(0.02);

@@ -57,7 +57,7 @@ async function open(hash: string) {
     },
     start,
   );
-  /** Until there is nothing left to be answered. */
+  /** Waits until nothing is left to be answered. */
   const settled = async () => {
     let before = -1;
     await vi.waitUntil(

@@ -1,4 +1,4 @@
-// What the caption of a scene says is seen in the scene.
+// The caption of a scene is true of its motion.
 import { describe, expect, it } from 'vitest';
 import { PRESETS } from '../../src/motion/state/setting';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
@@ -103,7 +103,7 @@ describe('the caption of', { timeout: 240000 }, () => {
     const module = await loadFirst();
     expect(sceneOf('tablecloth').caption).toMatch(/settles.*corners hang down close/);
     for (const name of ['silk', 'linen', 'leather']) {
-      // What a looser solver leaves unsolved may let stiff cloth slide off its side.
+      // A looser solver leaves so much unsolved that stiff cloth may slide off its side.
       const scene = sceneOf('tablecloth');
       const method = { ...(scene.method as object), tolerance: 1e-6 };
       const { rest, at } = begin(module, { ...scene, fabric: { name }, method });
@@ -254,7 +254,7 @@ describe('the caption of', { timeout: 240000 }, () => {
     const reader = new module.Scene(fabricsText);
     const mesh = JSON.stringify({ obj: 'skirt.obj' });
     const { cloth } = JSON.parse(reader.readObj(textOf('meshes/skirt.obj'), mesh));
-    const { method } = PRESETS.obj.scene; // as the page runs it
+    const { method } = PRESETS.obj.scene; // the page's own
     const { rest, at } = begin(module, { ...sceneOf('skirt'), cloth, method });
     const low = Math.min(...rest.map(({ y }) => y));
     const isHem = ({ y }: Vertex) => y < low + 0.01;

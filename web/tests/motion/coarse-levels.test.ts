@@ -92,7 +92,7 @@ describe('coarser levels', () => {
     expect(asked).toEqual([3]);
     store.set({ summary: { ...summary } });
     expect(asked).toEqual([3, 3]);
-    answers[0]?.(halved(9, 1)); // of the mesh before
+    answers[0]?.(halved(9, 1)); // the mesh before
     await Promise.resolve();
     expect(store.get().coarseLevels).toBeNull();
     answers[1]?.(halved(9, 3));

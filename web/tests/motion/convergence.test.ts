@@ -51,7 +51,7 @@ describe('compared methods', () => {
     expect(constraintsOf(curtain)).toBe('rigid');
     const xpbd = withStepper(curtain, 'xpbd');
     expect(constraintsOf(xpbd)).toBe('compliant');
-    // What is chosen for all makes no method of its own.
+    // A choice for all makes no method of its own.
     expect(titlesOf(withDetail(xpbd, 'constraints', 'rigid'), 'rigid')).toEqual(POSITION_BASED);
   });
 });

@@ -65,7 +65,7 @@ describe('energy lines', () => {
   });
 });
 
-/** Without the spaces at which no line ends. */
+/** The words, with plain spaces. */
 const plain = (samples: EnergyNumbers[]) => energyWords(samples).replaceAll('\u00a0', ' ');
 
 describe('energy in words', () => {

@@ -1,4 +1,4 @@
-// What the page says of each method, and of more substeps and rounds of it, is so on the swinging sheet.
+// The page's words on each method, and on more substeps and rounds of it, are true of the swinging sheet.
 import { describe, expect, it } from 'vitest';
 import { ENERGY_NUMBERS } from '../../src/shared/bindings/pleat-module';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';

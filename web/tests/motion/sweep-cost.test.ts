@@ -7,7 +7,7 @@ import { methodsAt, settingOf } from '../../src/motion/state/sweep-plan';
 
 const shown: Setting = { ...presetSetting('curtain'), level: 1 };
 const wish = { finest: 1, withSlow: false, ofShown: true };
-/** Which goes before any work. */
+/** Time before any work. */
 const START_S = 1.5;
 const measured = withCost({}, shown, 4);
 
@@ -61,7 +61,7 @@ describe('what a sweep would take', () => {
     const sheet: Setting = { ...presetSetting('swinging-sheet'), level: 1 };
     const shipped = expected(withCost({}, sheet, 4), sheet, { ...wish, finest: 3 });
     const finer = expected(measured, shown, { ...wish, finest: 3 });
-    // Of as many steps: the curtain is compared 1 s long, the sheet 0.4 s.
+    // Costs are of as many steps: the curtain is compared 1 s long, the sheet 0.4 s.
     expect(finer).toBeGreaterThan(1.5 * (shipped / 0.4));
   });
 });

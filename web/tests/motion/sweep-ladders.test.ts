@@ -28,7 +28,7 @@ async function wantedIds(plan: object): Promise<string[]> {
   }
 }
 
-/** What the sweeps of a preset as it is ask for, up to a level. */
+/** References that the sweeps of a preset as it is ask for, up to a level. */
 async function wantedUpTo(preset: PresetId, most: number, reference: ReferenceKind) {
   const wanted = new Set<string>();
   for (const withSlow of [false, true])

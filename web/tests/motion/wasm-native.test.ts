@@ -1,4 +1,4 @@
-// The same core natively and in WebAssembly: smooth scenes end at the same places.
+// The core natively and in WebAssembly: smooth scenes end at the same places.
 import { beforeAll, describe, expect, it } from 'vitest';
 import type { Constraints, ConvergenceStudy } from '../../src/motion/bindings/convergence-module';
 import { comparedMethods, convergenceWish } from '../../src/motion/state/convergence';
@@ -101,7 +101,7 @@ function relativeDifference(a: Float64Array, b: Float64Array): number {
   return difference / largest;
 }
 
-/** The same numbers by the names of the command. */
+/** The command's names of the numbers. */
 const NATIVE_NAMES = {
   kinetic: 'kinetic_j',
   elastic: 'elastic_j',

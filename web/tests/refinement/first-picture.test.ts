@@ -3,7 +3,7 @@ import { FIRST_PICTURE } from '../../src/refinement/state/garment-frames';
 import { DEFAULT_LINK } from '../../src/refinement/state/refinement-state';
 import { firstPicture, type ShownMesh } from '../support/first-picture';
 
-/** What nobody can see is no picture [m]. */
+/** A smaller distance nobody sees [m]. */
 const SEEN_M = 0.001;
 
 const PATIENCE_MS = 60000;

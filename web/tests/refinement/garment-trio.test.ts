@@ -75,7 +75,7 @@ function stand(link: Partial<RefinementLink> = {}, changes: Partial<TrioParts> =
     },
     showFrames(frames: ShownFrame[]) {
       for (const { pane, buffer } of frames) {
-        expect(buffer).not.toBe(held[pane]); // that is drawn until now
+        expect(buffer).not.toBe(held[pane]); // the one that is drawn until now
         held[pane] = buffer;
         shown[pane] = frameViews(buffer).positions.slice();
       }
@@ -368,7 +368,7 @@ describe('trio', () => {
           phase === 'ready' && plan?.largest_loss_m === 0.003 && panes.planned.lostM !== null,
       );
       expect(state.panes.planned.source).toBe('sampled');
-      // What a mesh loses is known before it moves, how it folds is not.
+      // A mesh's losses are known before it moves, its folds are not.
       expect(state.panes.planned.lostM).toBeGreaterThan(0);
       expect(state.panes.planned.foldsM).toBeNull();
       expect(state.timeS).toBeCloseTo(3, 9);

@@ -153,7 +153,7 @@ describe('the module of garments', () => {
     expect(run.positions().subarray(0, 147)).toEqual(places.subarray(0, 147));
     const { rms_m: rms, lost_m: lost, lost_normals_rad: turned } = JSON.parse(run.compare(places));
     expect(rms).toBeLessThan(0.02);
-    expect(lost).toBeCloseTo(rms, 12); // what is shown is the sample
+    expect(lost).toBeCloseTo(rms, 12); // the sample is shown
     expect(turned).toBeGreaterThan(0);
     expect(Math.max(...run.distances())).toBe(0);
     run.reset();

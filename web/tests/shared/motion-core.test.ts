@@ -70,7 +70,6 @@ function open(module: AllModules) {
   return { ...server, loaded: server.take('loaded') };
 }
 
-/** What comes of reading a file. */
 async function read(module: AllModules, name: string, text: string) {
   const file = await openObjFile(new File([text], name));
   if (typeof file === 'string') throw new Error(file);
@@ -654,7 +653,7 @@ describe('the WebAssembly module with a shipped reference', () => {
     expect(distance).toBeGreaterThan(0.001);
     expect(later?.uncertainty_m).toBeLessThan(0.1 * distance);
     expect(Math.max(...distances)).toBeGreaterThan(distance);
-    expect(Math.min(...distances)).toBe(0); // at the pins
+    expect(Math.min(...distances)).toBe(0); // no pin is off
   });
 
   it('grows as the step, for a method of first order', async () => {

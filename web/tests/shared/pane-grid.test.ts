@@ -25,7 +25,7 @@ describe('pane grid', () => {
       expect(grid.paneAt({ x: left + width / 2, y: top + height / 2 })).toBe(pane);
     }
     expect(grid.boxOf(4)).toMatchObject({ left: 230, top: 110 });
-    expect(grid.paneAt({ x: 530, y: 160 })).toBe(0); // beside the fifth
+    expect(grid.paneAt({ x: 530, y: 160 })).toBe(0); // no pane is right of the fifth
     expect(grid.paneAt({ x: 0, y: 0 })).toBe(0);
   });
 

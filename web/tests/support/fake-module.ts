@@ -13,7 +13,7 @@ import type {
   SimulationHandle,
 } from '../../src/shared/bindings/pleat-module';
 
-/** After as many steps as this the run ends with a status, when the scene's name is "fragile". */
+/** Steps after which the run ends with a status, when the scene's name is "fragile". */
 export const FRAGILE_STEPS = 10;
 
 type FakeMethod = BenchRow['method'] & { solver?: string };
@@ -56,7 +56,7 @@ class FakeSimulation implements SimulationHandle {
   private scene: FakeScene | null = null;
   private x = new Float32Array(0);
   private beginS = 0; // when it went on from another scene
-  private steps = 0; // since then
+  private steps = 0; // counted from then
   private held: number | null = null;
   private ended = false;
   private pulled = false;

@@ -1,4 +1,4 @@
-// What the view of refinement opens on, computed from the records alone, without the view and its words.
+// The picture that the view of refinement opens on, computed from the records alone.
 import { readFileSync } from 'node:fs';
 import { builtCore } from '../../build-steps/built-core.ts';
 import type { RefinementModule } from '../../src/refinement/bindings/refinement-module.ts';

@@ -34,7 +34,7 @@ export function nativeLevels(scene: object, words: readonly string[]) {
   }
 }
 
-/** What `pleat convergence` tells of one step of the scene. */
+/** The answer of `pleat convergence` on one step of the scene. */
 export function nativeConvergence(scene: object, words: readonly string[]): ConvergenceStudy {
   const folder = mkdtempSync(join(tmpdir(), 'pleat-native-'));
   try {
@@ -47,7 +47,7 @@ export function nativeConvergence(scene: object, words: readonly string[]): Conv
   }
 }
 
-/** What `read` finds after a run of the scene with these words, given what it printed and its folder. */
+/** Runs the scene with these words; the answer is that of `read`, given what was printed and the folder. */
 function ran<Found>(
   scene: object,
   words: readonly string[],

@@ -17,7 +17,7 @@ export interface Method {
 
 export interface Behaviour {
   stepMs: number;
-  /** From that time on the run is warned of [s]. */
+  /** Time from which on the run is warned of [s]. */
   warnedS?: number;
   /** It is warned of whenever it took another run's motion over. */
   isBadOnTheWay?: boolean;
@@ -74,7 +74,7 @@ function moduleOf(behaviourOf: (method: Method) => Behaviour, tried: Method[]): 
   return { ...module, Simulation };
 }
 
-/** What starts such workers, the methods that they were given, and how many of them live and were started. */
+/** Starts such workers, and tells the methods they were given and how many live and were started. */
 export function trialWorkers(behaviourOf: (method: Method) => Behaviour) {
   const tried: Method[] = [];
   let nAlive = 0;
