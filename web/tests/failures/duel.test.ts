@@ -106,6 +106,19 @@ describe('a duel', () => {
     expect(timeS).toBeCloseTo(caseNamed('fast_groove').endS, 9);
   });
 
+  it('tells the largest stretch on the way to a time that it shows', {
+    timeout: 30000,
+  }, async () => {
+    const module = await loadFirst();
+    const { duel, store } = createDuel(module, 'gathered_curtain');
+    await duel.showAt(1);
+    const { naive, ours } = store.get().sides;
+    const worst = naive.warnings.find(({ kind }) => kind === 'stretch')?.value ?? Number.NaN;
+    expect(naive.mostStretch).toBeGreaterThan(0.999 * worst);
+    // The curtain falls at first: it is longest then, and hangs shorter at the time shown.
+    expect(ours.mostStretch).toBeGreaterThan(0.005);
+  });
+
   it('drops what belonged to the case before', async () => {
     const module = await loadFirst();
     const { duel, store, until } = createDuel(module, 'tumbling');

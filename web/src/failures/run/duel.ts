@@ -48,7 +48,8 @@ export class Duel {
       words: WORDS,
       lostPhase: 'broken',
       begun: (starts, isNew) => this.begin(starts, isNew),
-      stepped: (frames, msPerStep) => this.read(frames, msPerStep),
+      stepped: (frames, msPerStep) => this.readAll(frames, msPerStep),
+      passed: (pane, frame) => this.read(pane, frame),
     };
     this.both = new InStep(store, view, piece, parts);
     store.subscribe((state, previous) => {
@@ -106,17 +107,23 @@ export class Duel {
     this.store.set({ sides: freshSides() });
   }
 
-  private read(frames: Frames, msPerStep: readonly number[]): void {
+  /** Reads a frame of a side; its steps took so long each [ms], or as long as before. */
+  private read(pane: number, frame: FrameMessage, msPerStep?: number): void {
     const measure = this.isPulled ? undefined : this.shownCase().measure;
-    const sides = { ...this.store.get().sides };
-    SIDES.forEach((side, pane) => {
-      const frame = frames[pane];
-      if (frame) sides[side] = sideAfter(sides[side], frame, msPerStep[pane] ?? 0, measure);
+    const { sides } = this.store.get();
+    const side = SIDES[pane];
+    if (!side) return;
+    const after = sideAfter(sides[side], frame, msPerStep ?? sides[side].msPerStep, measure);
+    this.store.set({ sides: { ...sides, [side]: after } });
+  }
+
+  private readAll(frames: Frames, msPerStep: readonly number[]): void {
+    frames.forEach((frame, pane) => {
+      if (frame) this.read(pane, frame, msPerStep[pane]);
     });
     const colliders = frames[OURS]?.colliders;
     if (colliders) this.view.setColliders(colliders);
     this.follow();
-    this.store.set({ sides });
   }
 
   private follow(): void {

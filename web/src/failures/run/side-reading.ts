@@ -20,7 +20,7 @@ function measuredAfter(
 export function sideAfter(
   before: SideState,
   { report, hasEnded, buffer }: FrameMessage,
-  msPerStep: number,
+  msPerStep: number | null,
   measure?: Measure,
 ): SideState {
   if (!report) return before;

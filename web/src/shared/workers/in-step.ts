@@ -43,6 +43,8 @@ export interface Piece {
   begun(starts: readonly SideStart[], isNew: boolean): void;
   /** All have made steps, and are shown; null for a cloth whose run had ended. Times of a step [ms]. */
   stepped(frames: readonly (FrameMessage | null)[], msPerStep: readonly number[]): void;
+  /** The cloth of a pane has made a step that is not shown; without it nobody reads those. */
+  passed?(pane: number, frame: FrameMessage): void;
 }
 
 /** The parts of the browser that a play needs: tests have their own. */
@@ -184,6 +186,24 @@ export class InStep {
     });
   }
 
+  /** The frame after so many steps; the piece reads those on the way. */
+  private async frameAfter(
+    count: number,
+    side: SideRun,
+    pane: number,
+  ): Promise<FrameMessage | null> {
+    const { piece } = this;
+    if (!piece.passed) return side.step(count);
+    const isCurrent = this.latest.mark();
+    for (let left = count; left > 1; --left) {
+      const frame = await side.step(1);
+      if (frame === null || frame.hasEnded || !isCurrent()) return frame;
+      piece.passed(pane, frame);
+      side.giveBack(frame.buffer);
+    }
+    return side.step(1);
+  }
+
   private async stepAll(count: number): Promise<void> {
     const isCurrent = this.latest.mark();
     const begunMs = this.parts.nowMs();
@@ -191,7 +211,7 @@ export class InStep {
     const msPerStep: number[] = [];
     const frames = await Promise.all(
       this.sides.map(async (side, pane) => {
-        const frame = await side.step(count);
+        const frame = await this.frameAfter(count, side, pane);
         msPerStep[pane] = sinceMs();
         return frame;
       }),
