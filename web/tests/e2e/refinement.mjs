@@ -64,7 +64,7 @@ export async function checkRefinement(harness) {
         ['planned', badges[2]],
       ]) {
         const [, length] = /([\d.]+) mm off fine/.exec(badge) ?? [];
-        expectThat(length && answer.includes(`${length} mm`), `${id}: ${badge}; ${answer}`);
+        expectThat(length && answer.includes(`${length}\u00a0mm`), `${id}: ${badge}; ${answer}`);
       }
       expectThat(/off the fine/.test(await page.locator('.garment-legend').textContent()), 'scale');
       const before = await positionsOf(page);

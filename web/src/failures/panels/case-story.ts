@@ -2,6 +2,7 @@
 import { button, checkBox, element, setText } from '../../shared/panels/element';
 import { save } from '../../shared/panels/saving';
 import { addSection, folded, noteLine } from '../../shared/panels/section';
+import { unbroken } from '../../shared/panels/unbroken';
 import { type Store, watch } from '../../shared/state/store';
 import { caseNamed, SIDES, sceneTextOf } from '../state/failure-cases';
 import type { FailuresState } from '../state/failures-state';
@@ -45,9 +46,9 @@ export function createCaseStory(parent: HTMLElement, store: Store<FailuresState>
   );
   watch(store, ['caseId'], ({ caseId }) => {
     const one = caseNamed(caseId);
-    setText(title, one.title);
-    setText(lesson, one.lesson);
-    setText(remedy, `What holds: ${one.remedy}`);
+    setText(title, unbroken(one.title));
+    setText(lesson, unbroken(one.lesson));
+    setText(remedy, unbroken(`What holds: ${one.remedy}`));
   });
   watch(store, ['edges'], (state) => {
     edges.input.checked = state.edges;
@@ -57,7 +58,7 @@ export function createCaseStory(parent: HTMLElement, store: Store<FailuresState>
       ...signsOf(state, 'naive').map(({ sentence }) => `Naive: ${sentence}`),
       ...signsOf(state, 'ours').map(({ sentence }) => `Ours: ${sentence}`),
     ];
-    const shown = sentences.length > 0 ? sentences : ['Nothing yet: press Play.'];
+    const shown = sentences.length > 0 ? sentences.map(unbroken) : ['Nothing yet: press Play.'];
     if (shown.join() === [...signs.children].map((item) => item.textContent).join()) return;
     signs.replaceChildren(...shown.map((sentence) => element('li', {}, sentence)));
   });

@@ -1,5 +1,6 @@
 // The answer of the picture, above it.
 import { element, setText } from '../../shared/panels/element';
+import { unbroken } from '../../shared/panels/unbroken';
 import { type Store, watch } from '../../shared/state/store';
 import type { RefinementState } from '../state/refinement-state';
 import { answerSentence, tangleSentence } from './answer-words';
@@ -12,7 +13,7 @@ export function createAnswer(parent: HTMLElement, store: Store<RefinementState>)
     ['panes', 'garment', 'fabric', 'rival', 'fineCloth', 'phase', 'playing'],
     (state) => {
       answer.classList.toggle('tangled', tangleSentence(state) !== null);
-      setText(answer, answerSentence(state));
+      setText(answer, unbroken(answerSentence(state)));
     },
   );
 }

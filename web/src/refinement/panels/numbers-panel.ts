@@ -4,6 +4,7 @@ import { element, setText } from '../../shared/panels/element';
 import { milliseconds, percent, smallLength } from '../../shared/panels/quantity';
 import { addSection, folded, noteLine } from '../../shared/panels/section';
 import { heading, numberCell, rowOf, tableOf } from '../../shared/panels/table-parts';
+import { unbroken } from '../../shared/panels/unbroken';
 import { type Store, watch } from '../../shared/state/store';
 import { comparedPanes, type PaneId, type RefinementState } from '../state/refinement-state';
 import { levelsSentence, lossSentence, ONE_MORE_LEVEL } from './garment-words';
@@ -100,8 +101,8 @@ export function createNumbersPanel(parent: HTMLElement, store: Store<RefinementS
     folded('In numbers', {}, table, noteLine(MEANING)),
   );
   watch(store, ['panes', 'rival', 'floor'], (state) => {
-    setText(levels, levelsSentence(state));
-    setText(loss, lossSentence(state));
+    setText(levels, unbroken(levelsSentence(state)));
+    setText(loss, unbroken(lossSentence(state)));
     table.replaceChildren(numberTable(state));
   });
 }
