@@ -10,6 +10,9 @@
 namespace pleat {
 namespace {
 
+/// Most boxes in a leaf; one that is not the only one has more than half of it.
+constexpr int kLeafSize = 2;
+
 /// False also of what is not a number.
 bool is_within_reach(double length) { return std::abs(length) < kFarthest; }
 
@@ -69,60 +72,80 @@ MovingBox box_on_way(const double* begin, const double* end, double reach, const
   return {at_begin.low, at_begin.high, at_end.low, at_end.high};
 }
 
+// Splits along the longest side of the box around the middles. Node k of a level l has the boxes
+// from k n / 2^l on, so that halves are equal up to one.
 void MovingBoxes::build(std::span<const MovingBox> boxes) {
-  const int n = static_cast<int>(boxes.size());
   order_.resize(boxes.size());
   std::iota(order_.begin(), order_.end(), 0);
   middles_.clear();
   for (const MovingBox& box : boxes) middles_.push_back(middle(box));
-  leaves_.clear();
-  nodes_.clear();
-  if (n > 0) split(0, n);
-  boxes_.resize(nodes_.size());
-}
-
-/// Splits at the median along the longest side of the box around the middles. Halves are as deep as
-/// the logarithm of their number, wherever they lie.
-void MovingBoxes::split(int begin, int end) {
-  const std::size_t index = nodes_.size();
-  nodes_.push_back({0, static_cast<int>(leaves_.size())});
-  if (end - begin <= kLeafSize) {
-    leaves_.push_back({begin, end});
-    return;
-  }
-  Eigen::AlignedBox3d around;
-  for (int k = begin; k < end; ++k) around.extend(middles_[order_[k]]);
-  Eigen::Index axis = 0;
-  around.sizes().maxCoeff(&axis);
-  const int half = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end,
-                   [this, axis](int a, int b) { return middles_[a][axis] < middles_[b][axis]; });
-  split(begin, half);
-  nodes_[index].second = static_cast<int>(nodes_.size());
-  split(half, end);
+  depth_ = 0;
+  while (n_boxes() > (static_cast<std::int64_t>(kLeafSize) << depth_)) ++depth_;
+  boxes_.resize((std::size_t{2} << depth_) - 1);
+  for (int level = 0; level < depth_; ++level)
+    for (int node = 0; node < 1 << level; ++node) {
+      const auto begin = order_.begin() + first_of(level, node);
+      const auto end = order_.begin() + first_of(level, node + 1);
+      Eigen::AlignedBox3d around;
+      for (auto box = begin; box != end; ++box) around.extend(middles_[*box]);
+      Eigen::Index axis = 0;
+      around.sizes().maxCoeff(&axis);
+      std::nth_element(begin, order_.begin() + first_of(level + 1, 2 * node + 1), end,
+                       [&](int a, int b) { return middles_[a][axis] < middles_[b][axis]; });
+    }
 }
 
 double MovingBoxes::fit(std::span<const MovingBox> ordered) {
   PLEAT_CHECK(ordered.size() == order_.size(), "a tree keeps its boxes");
   double surface = 0;
-  for (std::size_t n = nodes_.size(); n-- > 0;) {
-    if (nodes_[n].is_leaf()) {
-      const Leaf& leaf = leaves_[nodes_[n].leaf];
-      boxes_[n] = ordered[leaf.begin];
-      for (int k = leaf.begin + 1; k < leaf.end; ++k) boxes_[n] = merged(boxes_[n], ordered[k]);
+  const int n_inner = n_leaves() - 1;
+  for (int n = 2 * n_inner; n >= 0; --n) {
+    MovingBox& box = boxes_[n];
+    if (n < n_inner) {
+      box = merged(boxes_[2 * n + 1], boxes_[2 * n + 2]);
     } else {
-      boxes_[n] = merged(boxes_[n + 1], boxes_[nodes_[n].second]);
+      box = empty_box();
+      const int end = first_of(n - n_inner + 1);
+      for (int k = first_of(n - n_inner); k < end; ++k) box = merged(box, ordered[k]);
     }
-    surface += half_surface(boxes_[n].low_begin, boxes_[n].high_begin) +
-               half_surface(boxes_[n].low_end, boxes_[n].high_end);
+    surface +=
+        half_surface(box.low_begin, box.high_begin) + half_surface(box.low_end, box.high_end);
   }
   return surface;
 }
 
+// Pairs of a level come from those of the level above: children of a pair, and the two children of
+// one node. All are written, and those kept that overlap: nobody could guess which.
+std::span<const MovingBoxes::LeafPair> MovingBoxes::overlapping_leaves() {
+  std::size_t n_pairs = 0;
+  for (int level = 0; level < depth_; ++level) {
+    const int n_nodes = 1 << level;
+    const MovingBox* const children = boxes_.data() + (2 * n_nodes - 1);
+    const std::size_t most = 4 * n_pairs + static_cast<std::size_t>(n_nodes);
+    if (next_pairs_.size() < most) next_pairs_.resize(most);
+    LeafPair* next = next_pairs_.data();
+    for (int node = 0; node < n_nodes; ++node) {
+      *next = {2 * node, 2 * node + 1};
+      next += overlap(children[next->a], children[next->b]) ? 1 : 0;
+    }
+    for (std::size_t k = 0; k < n_pairs; ++k) {
+      const LeafPair pair = pairs_[k];
+      for (int a = 2 * pair.a; a < 2 * pair.a + 2; ++a)
+        for (int b = 2 * pair.b; b < 2 * pair.b + 2; ++b) {
+          *next = {a, b};
+          next += overlap(children[a], children[b]) ? 1 : 0;
+        }
+    }
+    n_pairs = static_cast<std::size_t>(next - next_pairs_.data());
+    pairs_.swap(next_pairs_);
+  }
+  return {pairs_.data(), n_pairs};
+}
+
 std::size_t MovingBoxes::bytes() const {
-  return order_.capacity() * sizeof(int) + leaves_.capacity() * sizeof(Leaf) +
-         nodes_.capacity() * sizeof(Node) + boxes_.capacity() * sizeof(MovingBox) +
-         middles_.capacity() * sizeof(Vec3) + waiting_.capacity() * sizeof(waiting_[0]);
+  return order_.capacity() * sizeof(int) + boxes_.capacity() * sizeof(MovingBox) +
+         middles_.capacity() * sizeof(Vec3) +
+         (pairs_.capacity() + next_pairs_.capacity()) * sizeof(LeafPair);
 }
 
 }  // namespace pleat

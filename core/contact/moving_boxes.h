@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -43,12 +43,13 @@ inline bool overlap(const MovingBox& a, const MovingBox& b) {
   return positive_lanes(min(a_into_b, b_into_a)) == 15;
 }
 
-/// A binary tree of moving boxes, to find those that overlap each other.
+/// A binary tree of moving boxes, to find those that overlap each other. All its leaves are equally
+/// deep.
 class MovingBoxes {
  public:
-  /// A run of boxes in `order`.
-  struct Leaf {
-    int begin = 0, end = 0;
+  /// Two leaves, the lower number first.
+  struct LeafPair {
+    int a, b;
   };
 
   /// Makes the tree anew, split at medians of the boxes' middles.
@@ -56,67 +57,32 @@ class MovingBoxes {
 
   /// Numbers of the boxes that it was built from, leaf by leaf.
   std::span<const int> order() const { return order_; }
-  std::span<const Leaf> leaves() const { return leaves_; }
+  int n_leaves() const { return 1 << depth_; }
+  /// Place in `order` where a leaf begins and the one before ends.
+  int first_of(int leaf) const { return first_of(depth_, leaf); }
 
   /// Keeps the tree and fits it to boxes that have changed, ordered as `order` has them. Returns
-  /// half the surface of all its boxes at both ends [m^2], which is what `visit` has to look at.
+  /// half the surface of all its boxes at both ends [m^2]; what overlaps grows with it.
   double fit(std::span<const MovingBox> ordered);
 
-  /// Calls visit(a, b), a < b, with the numbers of any two leaves whose boxes overlap.
-  template <class Visit>
-  void visit(Visit&& visit);
+  /// Leaves whose boxes overlap, each pair once. Valid until it is called again.
+  std::span<const LeafPair> overlapping_leaves();
 
   /// Memory that it holds [bytes].
   std::size_t bytes() const;
 
  private:
-  static constexpr int kLeafSize = 2;
-
-  /// Children of node n are n + 1 and `second`; a leaf has none.
-  struct Node {
-    int second = 0;
-    int leaf = 0;  // first of its leaves
-
-    bool is_leaf() const { return second == 0; }
-  };
-
-  void split(int begin, int end);
+  int first_of(int level, int node) const {
+    return static_cast<int>((static_cast<std::int64_t>(node) * n_boxes() >> level));
+  }
+  std::int64_t n_boxes() const { return static_cast<std::int64_t>(order_.size()); }
 
   std::vector<int> order_;
-  std::vector<Leaf> leaves_;
-  std::vector<Node> nodes_;
-  std::vector<MovingBox> boxes_;             // box of each node
-  std::vector<Vec3> middles_;                // middle of each box that it was built from
-  std::vector<std::array<int, 2>> waiting_;  // pairs of nodes to visit
+  int depth_ = 0;
+  std::vector<MovingBox>
+      boxes_;                  // box of each node, level by level; its children are 2 n + 1 and on
+  std::vector<Vec3> middles_;  // middle of each box that it was built from
+  std::vector<LeafPair> pairs_, next_pairs_;
 };
-
-template <class Visit>
-void MovingBoxes::visit(Visit&& visit) {
-  for (std::size_t parent = 0; parent < nodes_.size(); ++parent) {
-    if (nodes_[parent].is_leaf()) continue;
-    waiting_.push_back({static_cast<int>(parent) + 1, nodes_[parent].second});
-    while (!waiting_.empty()) {
-      const auto [a, b] = waiting_.back();
-      waiting_.pop_back();
-      if (!overlap(boxes_[a], boxes_[b])) continue;
-      const Node& node_a = nodes_[a];
-      const Node& node_b = nodes_[b];
-      if (node_a.is_leaf() && node_b.is_leaf()) {
-        visit(node_a.leaf, node_b.leaf);
-      } else if (node_a.is_leaf()) {
-        waiting_.push_back({a, b + 1});
-        waiting_.push_back({a, node_b.second});
-      } else if (node_b.is_leaf()) {
-        waiting_.push_back({a + 1, b});
-        waiting_.push_back({node_a.second, b});
-      } else {
-        waiting_.push_back({a + 1, b + 1});
-        waiting_.push_back({a + 1, node_b.second});
-        waiting_.push_back({node_a.second, b + 1});
-        waiting_.push_back({node_a.second, node_b.second});
-      }
-    }
-  }
-}
 
 }  // namespace pleat

@@ -28,12 +28,32 @@ std::uint64_t key_of(int first, int second) {
 int first_of(std::uint64_t key) { return static_cast<int>(key >> 32); }
 int second_of(std::uint64_t key) { return static_cast<int>(key & 0xffffffffU); }
 
-bool share(const Edge& a, const Edge& b) {
-  return (a[0] == b[0]) | (a[0] == b[1]) | (a[1] == b[0]) | (a[1] == b[1]);
+/// Vertices in common, counted without a branch.
+int n_shared(const Edge& a, const Edge& b) {
+  return int{a[0] == b[0]} + int{a[0] == b[1]} + int{a[1] == b[0]} + int{a[1] == b[1]};
 }
-bool has(const Triangle& face, VertexId v) {
-  return (face[0] == v) | (face[1] == v) | (face[2] == v);
+int n_shared(const Triangle& face, VertexId v) {
+  return int{face[0] == v} + int{face[1] == v} + int{face[2] == v};
 }
+
+/// Takes what one pair of leaves finds: all is written, and kept if so told.
+class FoundKeys {
+ public:
+  explicit FoundKeys(std::vector<std::uint64_t>& keys) : keys_(keys) {}
+  FoundKeys(const FoundKeys&) = delete;
+  FoundKeys& operator=(const FoundKeys&) = delete;
+  ~FoundKeys() { keys_.insert(keys_.end(), found_, found_ + count_); }
+
+  void add_if(bool overlaps, int n_shared, std::uint64_t key) {
+    found_[count_] = key;
+    count_ += int{overlaps} & int{n_shared == 0};
+  }
+
+ private:
+  std::vector<std::uint64_t>& keys_;
+  int count_ = 0;
+  std::uint64_t found_[40];  // two faces have six edges, and 36 pairs of them
+};
 
 /// Sorts numbers below `n` that the keys have at `shift`, and keeps the order of equal ones.
 void sort_by(int shift, int n, std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& sorted,
@@ -124,13 +144,14 @@ void NearPairs::build() {
   ordered_faces_.clear();
   ordered_edges_.clear();
   ordered_vertices_.clear();
-  owned_.clear();
+  leaves_.clear();
   vertex_owned_at_.resize(static_cast<std::size_t>(n_vertices_));
   edge_owned_at_.resize(edges_.size());
-  for (const MovingBoxes::Leaf& leaf : tree_.leaves()) {
-    owned_.push_back(
-        {static_cast<int>(ordered_vertices_.size()), static_cast<int>(ordered_edges_.size())});
-    for (int k = leaf.begin; k < leaf.end; ++k) {
+  for (int leaf = 0; leaf <= tree_.n_leaves(); ++leaf) {
+    leaves_.push_back({tree_.first_of(leaf), static_cast<int>(ordered_vertices_.size()),
+                       static_cast<int>(ordered_edges_.size())});
+    if (leaf == tree_.n_leaves()) break;
+    for (int k = tree_.first_of(leaf); k < tree_.first_of(leaf + 1); ++k) {
       const int number = tree_.order()[k];
       ordered_faces_.push_back({faces_[number], number});
       for (const VertexId v : faces_[number])
@@ -141,42 +162,37 @@ void NearPairs::build() {
           ordered_edges_.push_back({edges_[edge], edge});
     }
   }
-  owned_.push_back(
-      {static_cast<int>(ordered_vertices_.size()), static_cast<int>(ordered_edges_.size())});
 }
 
 /// Adds pairs of a vertex that the one leaf owns and a face of the other.
 void NearPairs::add_faces(int leaf_of_vertices, int leaf_of_faces) {
-  const MovingBoxes::Leaf faces = tree_.leaves()[leaf_of_faces];
-  const int end = owned_[leaf_of_vertices + 1].vertex;
-  for (int a = owned_[leaf_of_vertices].vertex; a < end; ++a) {
+  FoundKeys found(vertex_face_);
+  const int end_a = leaves_[leaf_of_vertices + 1].vertex;
+  const int begin_b = leaves_[leaf_of_faces].face;
+  const int end_b = leaves_[leaf_of_faces + 1].face;
+  for (int a = leaves_[leaf_of_vertices].vertex; a < end_a; ++a) {
     const VertexId vertex = ordered_vertices_[a];
-    for (int b = faces.begin; b < faces.end; ++b)
-      if (overlap(vertex_boxes_[vertex], face_boxes_[b]) && !has(ordered_faces_[b].corners, vertex))
-        vertex_face_.push_back(key_of(vertex, ordered_faces_[b].number));
+    const MovingBox& box = vertex_boxes_[vertex];
+    for (int b = begin_b; b < end_b; ++b)
+      found.add_if(overlap(box, face_boxes_[b]), n_shared(ordered_faces_[b].corners, vertex),
+                   key_of(vertex, ordered_faces_[b].number));
   }
 }
 
-void NearPairs::add_edges(int a, int b) {
-  if (!overlap(edge_boxes_[a], edge_boxes_[b]) ||
-      share(ordered_edges_[a].ends, ordered_edges_[b].ends))
-    return;
-  const auto [first, second] = std::minmax(ordered_edges_[a].number, ordered_edges_[b].number);
-  edge_edge_.push_back(key_of(first, second));
-}
-
-void NearPairs::within(int leaf) {
-  add_faces(leaf, leaf);
-  const int end = owned_[leaf + 1].edge;
-  for (int a = owned_[leaf].edge; a < end; ++a)
-    for (int b = a + 1; b < end; ++b) add_edges(a, b);
-}
-
-void NearPairs::between(int leaf_a, int leaf_b) {
-  add_faces(leaf_a, leaf_b);
-  add_faces(leaf_b, leaf_a);
-  for (int a = owned_[leaf_a].edge; a < owned_[leaf_a + 1].edge; ++a)
-    for (int b = owned_[leaf_b].edge; b < owned_[leaf_b + 1].edge; ++b) add_edges(a, b);
+void NearPairs::add_edges(int leaf_a, int leaf_b) {
+  FoundKeys found(edge_edge_);
+  const int end_a = leaves_[leaf_a + 1].edge;
+  const int end_b = leaves_[leaf_b + 1].edge;
+  for (int a = leaves_[leaf_a].edge; a < end_a; ++a) {
+    const OrderedEdge& edge = ordered_edges_[a];
+    const MovingBox& box = edge_boxes_[a];
+    for (int b = leaf_a == leaf_b ? a + 1 : leaves_[leaf_b].edge; b < end_b; ++b) {
+      const OrderedEdge& other = ordered_edges_[b];
+      found.add_if(
+          overlap(box, edge_boxes_[b]), n_shared(edge.ends, other.ends),
+          key_of(std::min(edge.number, other.number), std::max(edge.number, other.number)));
+    }
+  }
 }
 
 /// Drops pairs for which a vertex of the first side and one of the second are not to be looked at.
@@ -226,9 +242,15 @@ void NearPairs::detect(const Corridors& corridors, double margin) {
   vertex_face_.clear();
   edge_edge_.clear();
   fit(corridors, margin);
-  const int n_leaves = static_cast<int>(tree_.leaves().size());
-  for (int leaf = 0; leaf < n_leaves; ++leaf) within(leaf);
-  tree_.visit([this](int a, int b) { between(a, b); });
+  for (int leaf = 0; leaf < tree_.n_leaves(); ++leaf) {
+    add_faces(leaf, leaf);
+    add_edges(leaf, leaf);
+  }
+  for (const auto& [a, b] : tree_.overlapping_leaves()) {
+    add_faces(a, b);
+    add_faces(b, a);
+    add_edges(a, b);
+  }
   if (!parents_.empty())
     leave_out([this](VertexId a, VertexId b) {
       return parents_[a][0] == b || parents_[a][1] == b || parents_[b][0] == a ||
@@ -246,7 +268,7 @@ std::size_t NearPairs::bytes() const {
     return ((vectors.capacity() * sizeof(vectors[0])) + ...);
   };
   return held(faces_, edges_, face_edges_, parents_, ordered_faces_, ordered_edges_,
-              ordered_vertices_, owned_, vertex_owned_at_, edge_owned_at_, vertex_boxes_,
+              ordered_vertices_, leaves_, vertex_owned_at_, edge_owned_at_, vertex_boxes_,
               face_boxes_, edge_boxes_, vertex_face_, edge_edge_, sorted_, starts_, pairs_) +
          tree_.bytes();
 }

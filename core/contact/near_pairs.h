@@ -70,19 +70,17 @@ class NearPairs {
     std::array<VertexId, 2> ends;
     int number;
   };
-  /// First of the vertices and edges that a leaf owns.
-  struct Owned {
-    int vertex = 0, edge = 0;
+  /// First face of a leaf, and first of the vertices and edges that it owns.
+  struct Leaf {
+    int face, vertex, edge;
   };
 
   void fit(const Corridors& corridors, double margin);
   double fit_faces();
   MovingBox face_box(const Triangle& face) const;
   void build();
-  void within(int leaf);
-  void between(int leaf_a, int leaf_b);
   void add_faces(int leaf_of_vertices, int leaf_of_faces);
-  void add_edges(int a, int b);
+  void add_edges(int leaf_a, int leaf_b);
   template <class Rule>
   void leave_out(const Rule& rule);
   void list_pairs();
@@ -99,7 +97,7 @@ class NearPairs {
   std::vector<OrderedFace> ordered_faces_;
   std::vector<OrderedEdge> ordered_edges_;
   std::vector<VertexId> ordered_vertices_;
-  std::vector<Owned> owned_;                          // one of each leaf, and the end
+  std::vector<Leaf> leaves_;                          // and the end
   std::vector<int> vertex_owned_at_, edge_owned_at_;  // builds in which they last got an owner
   std::vector<MovingBox> vertex_boxes_;
   std::vector<MovingBox> face_boxes_, edge_boxes_;  // ordered as the tree has them
