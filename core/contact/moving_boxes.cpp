@@ -30,13 +30,13 @@ struct Bounds {
 // Let d = x - o and u = 2^-53. d -+ r is rounded by less than 3 u (|d| + r), and by 2^-24 of itself
 // as a float, or 2^-150 where that is denormal: 2^-23 (|d| + r) and 1e-44 are more than all of it.
 Bounds bounds(const double* x, const Vec3& origin, double reach) {
-  constexpr double kRounding = 0x1p-23;
+  constexpr double kFloatRounding = 0x1p-23;
   constexpr double kSmallest = 1e-44;
   Float4::Value low{0, 0, 0, -1};
   Float4::Value high{0, 0, 0, 1};
   for (int k = 0; k < 3; ++k) {
     const double d = x[k] - origin[k];
-    const double outward = reach + (kRounding * (std::abs(d) + reach) + kSmallest);
+    const double outward = reach + (kFloatRounding * (std::abs(d) + reach) + kSmallest);
     low[k] = static_cast<float>(d - outward);
     high[k] = static_cast<float>(d + outward);
   }
@@ -116,7 +116,8 @@ double MovingBoxes::fit(std::span<const MovingBox> ordered) {
 
 // Pairs of a level come from those of the level above: children of a pair, and the two children of
 // one node. All are written, and those kept that overlap: nobody could guess which.
-std::span<const MovingBoxes::LeafPair> MovingBoxes::overlapping_leaves() {
+std::optional<std::span<const MovingBoxes::LeafPair>> MovingBoxes::overlapping_leaves(
+    std::size_t most_pairs) {
   std::size_t n_pairs = 0;
   for (int level = 0; level < depth_; ++level) {
     const int n_nodes = 1 << level;
@@ -138,8 +139,9 @@ std::span<const MovingBoxes::LeafPair> MovingBoxes::overlapping_leaves() {
     }
     n_pairs = static_cast<std::size_t>(next - next_pairs_.data());
     pairs_.swap(next_pairs_);
+    if (n_pairs > most_pairs) return std::nullopt;
   }
-  return {pairs_.data(), n_pairs};
+  return std::span<const LeafPair>(pairs_.data(), n_pairs);
 }
 
 std::size_t MovingBoxes::bytes() const {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -65,8 +66,9 @@ class MovingBoxes {
   /// half the surface of all its boxes at both ends [m^2]; what overlaps grows with it.
   double fit(std::span<const MovingBox> ordered);
 
-  /// Leaves whose boxes overlap, each pair once. Valid until it is called again.
-  std::span<const LeafPair> overlapping_leaves();
+  /// Leaves whose boxes overlap, each pair once; nothing where there are more than `most`. Valid
+  /// until it is called again.
+  std::optional<std::span<const LeafPair>> overlapping_leaves(std::size_t most);
 
   /// Memory that it holds [bytes].
   std::size_t bytes() const;

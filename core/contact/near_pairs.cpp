@@ -8,6 +8,9 @@
 namespace pleat {
 namespace {
 
+/// Leaves that a leaf may overlap, on average. Ten layers that touch come to a fifth.
+constexpr std::size_t kMostNeighbours = 100;
+
 /// Boxes that have grown by so much in all are worth a new tree.
 constexpr double kMostGrowth = 1.5;
 
@@ -234,19 +237,23 @@ void NearPairs::list_pairs() {
   }
 }
 
-void NearPairs::detect(const Corridors& corridors, double margin) {
+bool NearPairs::detect(const Corridors& corridors, double margin) {
   PLEAT_CHECK(corridors.begins.cols() == n_vertices_ && corridors.ends.cols() == n_vertices_ &&
                   corridors.rooms.size() == n_vertices_,
               "a corridor for every vertex");
   PLEAT_CHECK(margin >= 0 && margin - margin == 0, "a margin that is finite and not below 0");
   vertex_face_.clear();
   edge_edge_.clear();
+  pairs_.clear();
   fit(corridors, margin);
+  const auto overlapping =
+      tree_.overlapping_leaves(kMostNeighbours * static_cast<std::size_t>(tree_.n_leaves()));
+  if (!overlapping) return false;
   for (int leaf = 0; leaf < tree_.n_leaves(); ++leaf) {
     add_faces(leaf, leaf);
     add_edges(leaf, leaf);
   }
-  for (const auto& [a, b] : tree_.overlapping_leaves()) {
+  for (const auto& [a, b] : *overlapping) {
     add_faces(a, b);
     add_faces(b, a);
     add_edges(a, b);
@@ -261,6 +268,7 @@ void NearPairs::detect(const Corridors& corridors, double margin) {
       return is_empty(vertex_boxes_[a]) || is_empty(vertex_boxes_[b]);
     });
   list_pairs();
+  return true;
 }
 
 std::size_t NearPairs::bytes() const {

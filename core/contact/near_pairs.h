@@ -45,7 +45,10 @@ class NearPairs {
   /// margin     [m], finite, not below 0
   ///
   /// Source: docs/methods/contact.md.
-  void detect(const Corridors& corridors, double margin);
+  ///
+  /// False, and no pair, where corridors overlap so much that a list would be no use: each face's
+  /// box a hundred others, as of cloth that explodes.
+  bool detect(const Corridors& corridors, double margin);
 
   /// Ascending, each once; the same for the same corridors, whatever was found before. Valid until
   /// the next `detect`, empty before the first.

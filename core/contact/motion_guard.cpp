@@ -1,0 +1,301 @@
+#include "core/contact/motion_guard.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "core/contact/closest_points.h"
+#include "core/contact/separator.h"
+
+namespace pleat {
+namespace {
+
+/// Share of its gap that a pair keeps at least where it is shortened.
+constexpr double kKept = 0.1;
+/// Gap that it is never shortened below, in shares of the gap that it rests at.
+constexpr double kFloor = 1e-3;
+constexpr int kMaxPasses = 12;
+constexpr int kMaxLists = 4;
+
+/// Sides of a pair along a normal.
+struct Levels {
+  double highest_first = -std::numeric_limits<double>::infinity();
+  double lowest_second = std::numeric_limits<double>::infinity();
+  double gap() const { return lowest_second - highest_first; }
+};
+
+Levels levels(const SurfacePair& pair, const Vec3& n, const Positions& x) {
+  Levels levels;
+  // Differences from one vertex: places far off cost no digits.
+  const Vec3 origin = x.col(pair.vertices[0]);
+  for (int k = 0; k < 4; ++k) {
+    const double along = n.dot(x.col(pair.vertices[k]) - origin);
+    if (k < pair.n_first())
+      levels.highest_first = std::max(levels.highest_first, along);
+    else
+      levels.lowest_second = std::min(levels.lowest_second, along);
+  }
+  return levels;
+}
+
+int root(std::vector<int>& parents, int v) {
+  while (parents[static_cast<std::size_t>(v)] != v) {
+    parents[static_cast<std::size_t>(v)] =
+        parents[static_cast<std::size_t>(parents[static_cast<std::size_t>(v)])];
+    v = parents[static_cast<std::size_t>(v)];
+  }
+  return v;
+}
+
+}  // namespace
+
+Movers::Movers(const Eigen::VectorXd& masses, std::span<const HangingVertex> hanging)
+    : masses_(masses), is_moved_(static_cast<std::size_t>(masses.size()), 0) {
+  for (int i = 0; i < masses.size(); ++i) parents_.push_back({VertexId(i), VertexId(i)});
+  if (!hanging.empty()) children_.resize(parents_.size());
+  for (const HangingVertex& h : hanging) {
+    parents_[h.vertex] = h.parents;
+    masses_[h.vertex] = masses[h.parents[0]] + masses[h.parents[1]];
+    for (const VertexId parent : h.parents) children_[parent].push_back(h.vertex);
+  }
+  inverse_masses_ = masses_.cwiseInverse();
+}
+
+void Movers::prescribe(std::span<const char> is_prescribed) {
+  for (int i = 0; i < masses_.size(); ++i) {
+    const auto& [a, b] = parents_[static_cast<std::size_t>(i)];
+    inverse_masses_[i] = is_prescribed[a] || is_prescribed[b] ? 0 : 1 / masses_[i];
+  }
+}
+
+void Movers::note(VertexId vertex) {
+  if (std::exchange(is_moved_[vertex], 1)) return;
+  moved_.push_back(vertex);
+}
+
+void Movers::move(VertexId vertex, const Vec3& way, Positions& places) {
+  const auto& [a, b] = parents_[vertex];
+  for (const VertexId v : {a, b}) {
+    places.col(v) += way;
+    note(v);
+    if (a == b) break;
+  }
+  if (children_.empty()) return;
+  for (const VertexId v : {a, b})
+    for (const VertexId child : children_[v]) {
+      const auto& [c, d] = parents_[child];
+      places.col(child) = (places.col(c) + places.col(d)) / 2;
+      note(child);
+    }
+}
+
+void Movers::clear_moved() {
+  for (const VertexId v : moved_) is_moved_[v] = 0;
+  moved_.clear();
+}
+
+bool MotionGuard::is_free(WatchedPair& pair, const Positions& begins, const Positions& ends) {
+  const PairWay way = pair_way(pair.sides, begins, ends);
+  if (separates(pair.normal, way)) return true;
+  const std::optional<Vec3> normal = separator(way, pair.normal);
+  if (normal) pair.normal = normal->normalized();
+  return normal.has_value();
+}
+
+// What is missing is taken along the normal of the closest points alone, from each side as much as
+// it approaches the pair's own mean motion. What that takes of momentum is given to all four alike:
+// their differences, and so the gap, stay.
+void MotionGuard::shorten(const WatchedPair& pair, const Positions& begins, Positions& ends) {
+  const SurfacePair& sides = pair.sides;
+  const Vec3 closest =
+      closest_points(pair_differences(sides, begins), sides.n_differences()).difference;
+  const double distance = closest.norm();
+  if (!(distance > 0)) return;
+  const Vec3 n = closest / distance;
+  const double gap = levels(sides, n, begins).gap();
+  const Levels at_end = levels(sides, n, ends);
+  const double wanted = std::min(gap, std::max(kKept * gap, kFloor * pair.gap));
+  const double missing = wanted - at_end.gap();
+  if (!(missing > 0)) return;
+
+  const int n_first = sides.n_first();
+  double mass = 0, mean = 0;
+  bool all_free = true;
+  std::array<double, 2> fastest = {-std::numeric_limits<double>::infinity(),
+                                   std::numeric_limits<double>::infinity()};
+  std::array<bool, 2> gives = {true, true};
+  for (int k = 0; k < 4; ++k) {
+    const VertexId v = sides.vertices[static_cast<std::size_t>(k)];
+    const double way = n.dot(ends.col(v) - begins.col(v));
+    const double inverse = movers_.inverse_mass(v);
+    const bool is_second = k >= n_first;
+    if (inverse > 0) {
+      mass += 1 / inverse;
+      mean += way / inverse;
+    } else {
+      all_free = false;
+      gives[is_second ? 1 : 0] = false;
+    }
+    fastest[is_second ? 1 : 0] = is_second ? std::min(fastest[1], way) : std::max(fastest[0], way);
+  }
+  mean = mass > 0 ? mean / mass : 0;
+  double share = 0.5;  // share of the first side
+  if (all_free) {
+    const double first = std::max(0.0, fastest[0] - mean);
+    const double second = std::max(0.0, mean - fastest[1]);
+    if (first + second > 0) share = first / (first + second);
+  } else if (gives[0] != gives[1]) {
+    share = gives[0] ? 1 : 0;
+  }
+  const double first_level = at_end.highest_first - share * missing;
+  const double second_level = at_end.lowest_second + (1 - share) * missing;
+  const Vec3 origin = ends.col(sides.vertices[0]);
+  std::array<double, 4> ways{};
+  double taken = 0;
+  for (int k = 0; k < 4; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const double inverse = movers_.inverse_mass(sides.vertices[at]);
+    if (inverse == 0) continue;
+    const double level = n.dot(ends.col(sides.vertices[at]) - origin);
+    ways[at] =
+        k < n_first ? std::min(0.0, first_level - level) : std::max(0.0, second_level - level);
+    taken += ways[at] / inverse;
+  }
+  const double back = all_free ? -taken / mass : 0;
+  for (int k = 0; k < 4; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    if (movers_.inverse_mass(sides.vertices[at]) > 0 && ways[at] + back != 0)
+      movers_.move(sides.vertices[at], (ways[at] + back) * n, ends);
+  }
+}
+
+// Those that failed before, too: what is prescribed moves for none.
+void MotionGuard::find_failing(const Positions& begins, const Positions& ends) {
+  candidates_ = failing_;
+  for (const VertexId v : movers_.moved())
+    for (const int p : pairs_.with(v)) candidates_.push_back(p);
+  std::sort(candidates_.begin(), candidates_.end());
+  candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
+  failing_.clear();
+  for (const int p : candidates_)
+    if (!is_free(pairs_.pairs()[static_cast<std::size_t>(p)], begins, ends)) failing_.push_back(p);
+}
+
+bool MotionGuard::settle(const Positions& begins, Positions& ends) {
+  failing_.clear();
+  const std::span<WatchedPair> pairs = pairs_.pairs();
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    if (!is_free(pairs[p], begins, ends)) failing_.push_back(static_cast<int>(p));
+  for (int pass = 0; pass < kMaxPasses && !failing_.empty(); ++pass) {
+    for (const int p : failing_) {
+      WatchedPair& pair = pairs[static_cast<std::size_t>(p)];
+      if (pass == 0 || !is_free(pair, begins, ends)) shorten(pair, begins, ends);
+    }
+    find_failing(begins, ends);
+  }
+  return failing_.empty() || hold_clusters(begins, ends);
+}
+
+void MotionGuard::join(VertexId vertex, VertexId other) {
+  for (const VertexId v : movers_.carriers(vertex)) {
+    if (!std::exchange(is_in_cluster_[v], 1)) in_clusters_.push_back(v);
+    next_in_cluster_[static_cast<std::size_t>(root(next_in_cluster_, v))] =
+        root(next_in_cluster_, movers_.carriers(other)[0]);
+  }
+}
+
+// A prescribed motion is that of its cluster; where two differ, nothing in it moves.
+bool MotionGuard::move_clusters(const Positions& begins, Positions& ends) {
+  for (const VertexId v : in_clusters_) clusters_[v] = {};
+  for (const VertexId v : in_clusters_) {
+    Cluster& cluster = clusters_[static_cast<std::size_t>(root(next_in_cluster_, v))];
+    const Vec3 way = proposed_.col(v) - begins.col(v);
+    if (const double inverse = movers_.inverse_mass(v); inverse > 0) {
+      cluster.mass += 1 / inverse;
+      cluster.momentum += way / inverse;
+      continue;
+    }
+    cluster.is_torn = cluster.is_torn || (cluster.has_prescribed && cluster.prescribed != way);
+    cluster.prescribed = way;
+    cluster.has_prescribed = true;
+  }
+  bool is_met = true;
+  for (const VertexId v : in_clusters_) {
+    const Cluster& cluster = clusters_[static_cast<std::size_t>(root(next_in_cluster_, v))];
+    is_met = is_met && !cluster.is_torn;
+    const Vec3 way = cluster.is_torn          ? Vec3(0, 0, 0)
+                     : cluster.has_prescribed ? cluster.prescribed
+                                              : Vec3(cluster.momentum / cluster.mass);
+    movers_.move(v, begins.col(v) + way - ends.col(v), ends);
+  }
+  return is_met;
+}
+
+void MotionGuard::clear_clusters(std::size_t n_vertices) {
+  next_in_cluster_.resize(n_vertices);
+  std::iota(next_in_cluster_.begin(), next_in_cluster_.end(), 0);
+  clusters_.resize(n_vertices);
+  is_in_cluster_.assign(n_vertices, 0);
+  in_clusters_.clear();
+}
+
+// Vertices of failing pairs that hang together go on as one, by their mean motion: all their gaps
+// stay. Pairs across the rim join, until none fails; there are finitely many vertices.
+bool MotionGuard::hold_clusters(const Positions& begins, Positions& ends) {
+  clear_clusters(static_cast<std::size_t>(begins.cols()));
+  bool is_met = true;
+  for (std::size_t n_in = 0; !failing_.empty(); n_in = in_clusters_.size()) {
+    for (const int p : failing_) {
+      const auto& vertices = pairs_.pairs()[static_cast<std::size_t>(p)].sides.vertices;
+      for (const VertexId v : vertices) join(v, vertices[0]);
+    }
+    is_met = move_clusters(begins, ends);
+    find_failing(begins, ends);
+    if (in_clusters_.size() == n_in) break;  // what is left, rounding decides
+  }
+  return is_met && failing_.empty();
+}
+
+HeldBack MotionGuard::loss(const Positions& ends) const {
+  HeldBack held;
+  for (const VertexId v : movers_.moved()) {
+    const double loss = (ends.col(v) - proposed_.col(v)).squaredNorm();
+    if (loss == 0) continue;
+    ++held.n_vertices;
+    held.squared_loss += loss;
+  }
+  return held;
+}
+
+HeldBack MotionGuard::hold_all(const Positions& begins, Positions& ends) {
+  proposed_ = ends;
+  movers_.clear_moved();
+  clear_clusters(static_cast<std::size_t>(begins.cols()));
+  for (int i = 0; i < begins.cols(); ++i) join(VertexId(i), VertexId(0));
+  const bool is_met = move_clusters(begins, ends);
+  HeldBack held = loss(ends);
+  held.is_blocked = !is_met;
+  return held;
+}
+
+HeldBack MotionGuard::hold(const Positions& begins, Positions& ends, double begin, double end) {
+  proposed_ = ends;
+  movers_.clear_moved();
+  bool is_met = true;
+  for (int lists = 0; lists < kMaxLists; ++lists) {
+    is_met = settle(begins, ends) && is_met;
+    if (std::all_of(movers_.moved().begin(), movers_.moved().end(),
+                    [&](VertexId v) { return pairs_.cover(ends, v, end); })) {
+      HeldBack held = loss(ends);
+      held.is_blocked = !is_met;
+      return held;
+    }
+    if (!pairs_.add(begins, ends, begin, end)) break;
+  }
+  ends = proposed_;
+  return hold_all(begins, ends);
+}
+
+}  // namespace pleat
