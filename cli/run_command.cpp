@@ -15,6 +15,7 @@
 #include "core/files/matrix_file.h"
 #include "core/model/stretch.h"
 #include "core/model/system_matrix.h"
+#include "core/run/cloth_contact_metrics.h"
 #include "core/run/run_ledger.h"
 #include "core/run/scene_model.h"
 #include "core/run/simulation.h"
@@ -203,6 +204,8 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary, Watch
   }
   if (const auto bound = simulation.stability_bound()) json["stability_bound_s"] = *bound;
   if (const auto contact = simulation.stepper().first_contact()) json["first_contact_s"] = *contact;
+  if (const ClothContact* contact = simulation.stepper().cloth_contact())
+    json["cloth_contact"] = json_cloth_contact(*contact);
   if (watchers.ledger) json["energy"] = drift_json(watchers.ledger->account());
   json["core"] = core_version();
   return json;
@@ -262,6 +265,13 @@ void print_summary(const Simulation& simulation, const RunSummary& summary, cons
     std::printf("first contact at %.10g s\n", *contact);
   if (scene.model.tearing)
     std::printf("tears: %zu vertices were split\n", simulation.tear_origins().size());
+  if (const auto contact = metrics.find("cloth_contact"); contact != metrics.end())
+    std::printf(
+        "cloth contact: %d pairs near and %d touching at the end, %.2g %% of the vertices "
+        "held back, %.2g mm of motion lost in a substep\n",
+        contact->at("n_pairs").get<int>(), contact->at("n_touching").get<int>(),
+        100 * contact->at("held_back_share").get<double>(),
+        1e3 * contact->at("rms_motion_lost_m").get<double>());
   if (metrics.contains("crossings_at_end"))
     std::printf("crossings of the cloth with itself: %lld in the last frame, at most %lld\n",
                 static_cast<long long>(summary.last_crossings),
@@ -299,7 +309,8 @@ Outcome run_command(Arguments arguments) {
     }
     Watchers watchers;
     if (out) watchers.frames.emplace(out.open(scene.record.format, frame_mesh(simulation)));
-    if (out || scene.cloth->is_worn()) watchers.crossings = crossings_of(simulation);
+    if (out || scene.cloth->is_worn() || scene.self_contact)
+      watchers.crossings = crossings_of(simulation);
     if (wants_drift) watchers.ledger.emplace(simulation);
     RunSummary summary = run_to_end(simulation, watchers);
     if (out) watchers.frames->finish();

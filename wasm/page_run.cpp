@@ -1,6 +1,7 @@
 #include "wasm/page_run.h"
 
 #include "core/base/check.h"
+#include "core/run/cloth_contact_metrics.h"
 #include "wasm/envelope.h"
 
 namespace pleat {
@@ -91,6 +92,8 @@ void PageRun::put_costs(val& envelope) const {
     if (seconds > 0) parts.set(std::string(name(part)), 1e3 * seconds);
   }
   envelope.set("parts_ms", parts);
+  if (const ClothContact* contact = simulation_->stepper().cloth_contact())
+    envelope.set("cloth_contact", json_value(json_cloth_contact(*contact).dump()));
   envelope.set("steps_ms", 1e3 * steps_->seconds());
   envelope.set("steps_timed", static_cast<double>(steps_->n_timed()));
 }

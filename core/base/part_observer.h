@@ -13,10 +13,11 @@ enum class Part {
   solve,     ///< linear solve or constraint projection
   contact,
   strain_limit,
+  cloth_contact,
 };
-inline constexpr const char* kPartNames[] = {"convert", "forces",  "assembly",    "factor",
-                                             "solve",   "contact", "strain limit"};
-constexpr int kPartCount = 7;
+inline constexpr const char* kPartNames[] = {"convert", "forces",  "assembly",     "factor",
+                                             "solve",   "contact", "strain limit", "cloth contact"};
+constexpr int kPartCount = 8;
 
 constexpr const char* name(Part part) { return kPartNames[static_cast<std::size_t>(part)]; }
 

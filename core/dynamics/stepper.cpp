@@ -40,6 +40,7 @@ Stepper::Stepper(ClothModel& model, const MethodOptions& options, int substeps,
   options.validate();
   model.validate();
   if (model.strain_limit) strain_limit_.emplace(model);
+  if (model.self_contact) cloth_contact_.emplace(model);
 }
 
 void Stepper::start_from_contact_forces(const PositionsView& forces) {
@@ -52,7 +53,15 @@ void Stepper::load(const State&) {}
 
 void Stepper::store(State&, SolveReport&) {}
 
+void Stepper::read_places(const State& state, Positions& places) const { places = state.positions; }
+
+void Stepper::change(State& state, VertexId vertex, const Vec3& place, const Vec3& velocity) {
+  state.positions.col(vertex) = place;
+  state.velocities.col(vertex) += velocity;
+}
+
 SolveReport Stepper::advance(State& state, double time) {
+  if (cloth_contact_) cloth_contact_->refresh();
   PLEAT_CHECK(state.positions.cols() == model_.n_vertices() &&
                   state.velocities.cols() == model_.n_vertices(),
               "a state has the model's vertices");
@@ -92,10 +101,23 @@ SolveReport Stepper::substep_in_world(State& state, double time_end, double h) {
     contact_memory_.begin_substep();
   }
   if (model_.air) model_.air->set_time(time_end);
+  if (cloth_contact_) {
+    const PartScope scope(observer_, Part::cloth_contact);
+    read_places(state, cloth_contact_->begins());
+  }
   SolveReport report = substep(state, time_end, h);
   place_between_parents(model_.hanging, state);
+  if (cloth_contact_ && !report.ends_run()) keep_cloth_apart(state, time_end, h);
   if (model_.bend_friction) model_.bend_friction->end_substep(state.positions);
   return report;
+}
+
+void Stepper::keep_cloth_apart(State& state, double time_end, double h) {
+  const PartScope scope(observer_, Part::cloth_contact);
+  read_places(state, cloth_contact_->ends());
+  for (const auto& [vertex, velocity] : cloth_contact_->hold(time_end - h, time_end))
+    if (!model_.hangs(vertex)) change(state, vertex, cloth_contact_->ends().col(vertex), velocity);
+  place_between_parents(model_.hanging, state);
 }
 
 std::unique_ptr<LinearSolver> Stepper::make_solver(const MethodOptions& options,

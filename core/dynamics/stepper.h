@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/part_observer.h"
+#include "core/dynamics/cloth_contact.h"
 #include "core/dynamics/contact_memory.h"
 #include "core/dynamics/first_contact.h"
 #include "core/dynamics/method_options.h"
@@ -62,6 +63,9 @@ class Stepper {
   /// Null where the model has none.
   const StrainLimitPass* strain_limit() const { return strain_limit_ ? &*strain_limit_ : nullptr; }
 
+  /// Null where the model has none.
+  const ClothContact* cloth_contact() const { return cloth_contact_ ? &*cloth_contact_ : nullptr; }
+
   void observe(PartObserver* observer) { observer_ = observer; }
   const MethodOptions& options() const { return options_; }
   int substeps() const { return substeps_; }
@@ -79,6 +83,12 @@ class Stepper {
   /// Advances by h [s] to time_end, corrections included; solids are placed, and the wind is that
   /// of the end. Hanging vertices follow by themselves.
   virtual SolveReport substep(State& state, double time_end, double h) = 0;
+
+  /// Places of all vertices as they stand in a substep [m]; hanging ones need not be right. For
+  /// steppers with a layout of their own.
+  virtual void read_places(const State& state, Positions& places) const;
+  /// Puts a vertex that does not hang at a place [m] and makes it that much faster [m/s].
+  virtual void change(State& state, VertexId vertex, const Vec3& place, const Vec3& velocity);
 
   /// Ends a substep that started from positions_begin_: strain limit, contact on all vertices that
   /// neither hang nor are pinned, and pins, which win over both.
@@ -109,6 +119,7 @@ class Stepper {
 
  private:
   SolveReport substep_in_world(State& state, double time_end, double h);
+  void keep_cloth_apart(State& state, double time_end, double h);
   void resolve_contacts(State& state, double h, const Eigen::VectorXd& resistances,
                         double travel_share);
   void limit_among_contacts(State& state, double h, double travel_share);
@@ -118,6 +129,7 @@ class Stepper {
   MethodOptions options_;
   int substeps_;
   std::optional<StrainLimitPass> strain_limit_;
+  std::optional<ClothContact> cloth_contact_;
   FirstContact first_contact_;
   State last_finite_;
   BendFriction::Kept last_friction_;  // state of friction inside the fabric, there

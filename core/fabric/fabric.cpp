@@ -24,6 +24,7 @@ FabricConstants constants(const Fabric& fabric, BendSource bend_source) {
   numbers.bend_weft = fabric.bend_weft.value;
   numbers.damping_ratio = fabric.damping_ratio.value;
   numbers.friction_solid = fabric.friction_solid.value;
+  numbers.friction_fabric = fabric.friction_fabric.value;
   if (bend_source == BendSource::friction) numbers.bend_hysteresis = fabric.bend_hysteresis.value;
   if (bend_source == BendSource::at_rest) {
     numbers.bend_warp = static_rigidity(numbers.bend_warp, fabric.bend_hysteresis.value);

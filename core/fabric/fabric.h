@@ -65,16 +65,17 @@ enum class BendSource {
 /// The plain numbers that a simulation needs.
 struct FabricConstants {
   std::string name = "custom";
-  double areal_density = 0.1;   ///< [kg/m^2], positive
-  double thickness = 0;         ///< [m], not negative
-  double stretch_warp = 1000;   ///< K_u [N/m], positive
-  double stretch_weft = 1000;   ///< K_v [N/m], positive
-  double shear = 10;            ///< G [N/m], not negative
-  double bend_warp = 0;         ///< B along warp [N m], not negative
-  double bend_weft = 0;         ///< B along weft [N m], not negative
-  double damping_ratio = 0;     ///< zeta, not negative
-  double friction_solid = 0.3;  ///< not negative
-  double bend_hysteresis = 0;   ///< 2HB of friction beside the rigidities [N], not negative
+  double areal_density = 0.1;    ///< [kg/m^2], positive
+  double thickness = 0;          ///< [m], not negative
+  double stretch_warp = 1000;    ///< K_u [N/m], positive
+  double stretch_weft = 1000;    ///< K_v [N/m], positive
+  double shear = 10;             ///< G [N/m], not negative
+  double bend_warp = 0;          ///< B along warp [N m], not negative
+  double bend_weft = 0;          ///< B along weft [N m], not negative
+  double damping_ratio = 0;      ///< zeta, not negative
+  double friction_solid = 0.3;   ///< not negative
+  double friction_fabric = 0.4;  ///< not negative
+  double bend_hysteresis = 0;    ///< 2HB of friction beside the rigidities [N], not negative
 };
 
 /// kappa0 at which half the hysteresis is turned into rigidity [1/m] (assets/SOURCES.md, static

@@ -59,6 +59,7 @@ class JsonReader {
   bool boolean() const;
   const std::string& text() const;
   bool is_text() const { return json_->is_string(); }
+  bool is_object() const { return json_->is_object(); }
   bool is_array() const { return json_->is_array(); }
   bool is_null() const { return json_->is_null(); }
   Vec3 vec3() const;

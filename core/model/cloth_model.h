@@ -5,6 +5,7 @@
 
 #include "core/base/motion.h"
 #include "core/contact/contact_pass.h"
+#include "core/contact/self_contact.h"
 #include "core/fabric/chord_bending.h"
 #include "core/fabric/hinge_bending.h"
 #include "core/fabric/membrane.h"
@@ -51,6 +52,7 @@ struct ClothModel {
   std::vector<Pin> pins;      ///< at most one per vertex, none where it hangs
   std::optional<AirDrag> air;
   std::optional<ContactPass> contact;
+  std::optional<SelfContact> self_contact;
   std::optional<StrainLimit> strain_limit;
   TriangleMesh surface;  ///< base of coarser levels; empty unless the method asks for it
   RestCoordinates rest_coordinates;  ///< 2 x n [m], or empty: some steppers order their work by it

@@ -93,6 +93,7 @@ std::vector<SettingHint> hints_of_counts(double excess, const MethodOptions& met
 
 std::vector<SettingHint> hints_for(Kind kind, double excess, const Scene& scene) {
   const MethodOptions& method = scene.method;
+  if (kind == Kind::blocked) return {};
   if (kind == Kind::given_up) return {{"/method/solver", name(SolverKind::supernodal)}};
   if (kind == Kind::unbalanced && method.stepper->reads("iterations")) return {calm_hint(method)};
   std::vector<SettingHint> hints = hints_of_settings(kind, method);

@@ -9,13 +9,15 @@
 namespace pleat {
 namespace {
 
-constexpr std::array<Word<RunWarning::Kind>, 7> kKinds = {
+constexpr std::array<Word<RunWarning::Kind>, 9> kKinds = {
     {{"stretch", RunWarning::Kind::stretch},
      {"speed", RunWarning::Kind::speed},
      {"unsolved", RunWarning::Kind::unsolved},
      {"not_converged", RunWarning::Kind::not_converged},
      {"given_up", RunWarning::Kind::given_up},
      {"unbalanced", RunWarning::Kind::unbalanced},
+     {"held_back", RunWarning::Kind::held_back},
+     {"blocked", RunWarning::Kind::blocked},
      {"soft", RunWarning::Kind::soft}}};
 
 }  // namespace
@@ -57,6 +59,16 @@ std::string sentence(const RunWarning& warning) {
           "from %.3g s on, cloth at rest was held up by what its steps leave unsolved, not by the "
           "cloth: %.3g %% of its weight was unbalanced",
           time, share);
+    case RunWarning::Kind::held_back:
+      return formatted(
+          "from %.3g s on, %.3g %% of the vertices were held back from passing through cloth: "
+          "their motion is the guard's, not the method's",
+          time, share);
+    case RunWarning::Kind::blocked:
+      return formatted(
+          "from %.3g s on, cloth was pulled through itself, and what pulled was held back in %.3g "
+          "substeps",
+          time, warning.value);
   }
   return "";
 }

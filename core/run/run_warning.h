@@ -24,13 +24,17 @@ struct RunWarning {
     not_converged,  ///< a step reported it, by more than a thousandth: no nonsense, as the next
     given_up,       ///< a factor solved what the solver that was asked for gave up
     unbalanced,     ///< cloth is at rest where its model is in no equilibrium
+    held_back,      ///< the guard of self-contact shortened the ways of many vertices
+    blocked,        ///< what is prescribed left cloth no way: it stayed behind
     soft,           ///< cloth stretches more than its fabric would, as yet by no nonsense
   };
   Kind kind;
   double time;      ///< when it was first seen [s]
   VertexId vertex;  ///< vertex where it was at its worst
-  double value;     ///< worst value: |l/L - 1|, [m/s], relative residual or share of the weight
-  double bound;     ///< limit that the first one exceeded, in the same unit
+  /// Worst value: |l/L - 1|, [m/s], relative residual, share of the weight or of the vertices,
+  /// substeps.
+  double value;
+  double bound;  ///< limit that the first one exceeded, in the same unit
   std::vector<SettingHint> hints;
 
   bool is_nonsense() const {

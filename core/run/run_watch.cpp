@@ -36,6 +36,8 @@ constexpr int kUnsolvedLooks = 5;
 /// The default tolerance takes less for solved: it is no warning, though a stricter one was asked
 /// for.
 constexpr double kNotConverged = 1e-3;
+/// Share of the vertices, on average since the start, that the guard of self-contact may hold back.
+constexpr double kHeldBack = 0.01;
 
 /// Force per strain of a gauge's edge [N].
 double edge_stiffness(const Scene& scene, const GaugeEdge& edge) {
@@ -195,6 +197,7 @@ void RunWatch::check(const Simulation& simulation, const SolveReport& step) {
   check_stretch(simulation);
   check_speed(simulation);
   check_report(simulation, step);
+  check_cloth_contact(simulation);
   tell_unbalanced(simulation, rest_.after_step(simulation));
 }
 
@@ -306,6 +309,16 @@ void RunWatch::check_report(const Simulation& simulation, const SolveReport& ste
     told(RunWarning::Kind::not_converged, simulation.time(), kNotConverged);
   else if (step.ok() && !step.message.empty())
     told(RunWarning::Kind::given_up, simulation.time(), 0);
+}
+
+void RunWatch::check_cloth_contact(const Simulation& simulation) {
+  const ClothContact* contact = simulation.stepper().cloth_contact();
+  if (contact == nullptr) return;
+  const double share = contact->held_back_share();
+  if (share > kHeldBack)
+    warn(simulation, {RunWarning::Kind::held_back, simulation.time(), {}, share, kHeldBack, {}});
+  if (const auto n = static_cast<double>(contact->sums().n_blocked); n > 0)
+    warn(simulation, {RunWarning::Kind::blocked, simulation.time(), {}, n, 1, {}});
 }
 
 void RunWatch::warn(const Simulation& simulation, RunWarning warning) {

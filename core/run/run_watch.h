@@ -33,6 +33,7 @@ class RunWatch {
   double stretch_between_pins(const Simulation& simulation);
   double explained_softness(const Simulation& simulation);
   void check_speed(const Simulation& simulation);
+  void check_cloth_contact(const Simulation& simulation);
   void check_report(const Simulation& simulation, const SolveReport& step);
   void tell_unbalanced(const Simulation& simulation, const std::optional<RestWatch::Look>& look);
   void warn(const Simulation& simulation, RunWarning warning);

@@ -124,6 +124,11 @@ ClothModel scene_model(const Scene& scene, const RestCloth& cloth) {
                                  scene.contact_response};
     model.contact.emplace(std::move(colliders), options);
   }
+  if (scene.self_contact && !cloth.mesh.triangles.empty())
+    model.self_contact =
+        SelfContact{cloth.mesh.triangles, model.hanging, cloth.mesh.rest_positions,
+                    scene.self_contact->thickness.value_or(scene.fabric.thickness),
+                    scene.self_contact->friction.value_or(scene.fabric.friction_fabric)};
   if (scene.model.strain_limit)
     model.strain_limit = StrainLimit{*scene.model.strain_limit,
                                      in_lines(gauge_edges(cloth), cloth.mesh.rest_positions)};
@@ -161,6 +166,8 @@ BuildReport build_report(const ClothModel& model, const ModelOptions& options) {
   note(model.air.has_value(), "air drag", model.air ? model.air->bytes() : 0);
   note(model.air && model.air->has_wind(), "wind", 0);
   note(model.contact.has_value(), "contact", model.contact ? model.contact->bytes() : 0);
+  note(model.self_contact.has_value(), "cloth contact",
+       model.self_contact ? bytes_of(model.self_contact->faces) : 0);
   note(model.strain_limit.has_value(), "strain limit",
        model.strain_limit ? bytes_of(model.strain_limit->edges) : 0);
   note(options.tearing != nullptr, "tearing", options.tearing ? sizeof *options.tearing : 0);

@@ -62,6 +62,12 @@ struct ModelOptions {
   std::shared_ptr<const Tearing> tearing;  ///< or null: the cloth holds whatever pulls at it
 };
 
+/// Contact of a cloth with itself; what is not set is the fabric's.
+struct SelfContactOptions {
+  std::optional<double> friction;   ///< Coulomb coefficient, not below 0
+  std::optional<double> thickness;  ///< gap that layers rest at [m], positive
+};
+
 struct RecordOptions {
   double every = 1.0 / 60;  ///< [s], positive, rounded to whole steps
   FrameFormat format = FrameFormat::obj;
@@ -96,6 +102,8 @@ struct Scene {
   std::optional<AirOptions> air;
   std::vector<Collider> colliders;
   ContactResponse contact_response = ContactResponse::resting;  ///< response of colliders and body
+  /// What cloth does where it meets itself; without it, it passes through.
+  std::optional<SelfContactOptions> self_contact;
   MethodOptions method;
   double duration = 5;  ///< [s], positive
   RecordOptions record;

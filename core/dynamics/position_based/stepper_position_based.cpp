@@ -300,6 +300,26 @@ void StepperPositionBased::copy_to(State& state, double h) {
   place_between_parents(model_.hanging, state);
 }
 
+void StepperPositionBased::read_places(const State&, Positions& places) const {
+  places.resize(3, model_.n_vertices());
+  const float* const numbers = data_.data();
+  for (int i = 0; i < model_.n_vertices(); ++i) {
+    const auto slot = static_cast<std::size_t>(slot_of(VertexId(i)));
+    for (std::size_t k = 0; k < 3; ++k)
+      places(static_cast<int>(k), i) = origin_[static_cast<int>(k)] +
+                                       (static_cast<double>(numbers[(begin + k) * pitch_ + slot]) +
+                                        numbers[(move + k) * pitch_ + slot]);
+  }
+}
+
+void StepperPositionBased::change(State&, VertexId vertex, const Vec3& place,
+                                  const Vec3& velocity) {
+  const double h = step_of(options());
+  const MotionLanes now = motion();
+  const int slot = slot_of(vertex);
+  set_motion(now, slot, place, velocity_of(now, slot, h) + velocity, h);
+}
+
 // After contact, which reads from what is rounded off where a vertex was.
 void StepperPositionBased::brake() {
   const PartScope scope(observer_, Part::solve);

@@ -19,7 +19,7 @@ struct FabricNumber {
   double FabricConstants::*field;
   NumberRange range;
 };
-constexpr std::array<FabricNumber, 10> kNumberFields{
+constexpr std::array<FabricNumber, 11> kNumberFields{
     {{"areal_density_kg_per_m2", &FabricConstants::areal_density, kPositive},
      {"thickness_m", &FabricConstants::thickness, kNotNegative},
      {"stretch_warp_n_per_m", &FabricConstants::stretch_warp, kPositive},
@@ -29,6 +29,7 @@ constexpr std::array<FabricNumber, 10> kNumberFields{
      {"bend_weft_n_m", &FabricConstants::bend_weft, kNotNegative},
      {"damping_ratio", &FabricConstants::damping_ratio, kNotNegative},
      {"friction_solid", &FabricConstants::friction_solid, kNotNegative},
+     {"friction_fabric", &FabricConstants::friction_fabric, kNotNegative},
      {kHysteresisKey, &FabricConstants::bend_hysteresis, kNotNegative}}};
 
 /// Reads the numbers that are there; the others stay as they are. Returns the keys read.

@@ -147,6 +147,19 @@ WindOptions read_wind(const JsonReader& reader) {
   return wind;
 }
 
+/// true, false, or an object that says what is not the fabric's.
+std::optional<SelfContactOptions> read_self_contact(const JsonReader& reader) {
+  SelfContactOptions options;
+  if (!reader.is_object()) {
+    if (!reader.boolean()) return std::nullopt;
+    return options;
+  }
+  reader.allow_keys({"friction", "thickness_m"});
+  if (const auto at = reader.find("friction")) options.friction = at->number(kNotNegative);
+  if (const auto at = reader.find("thickness_m")) options.thickness = at->number(kPositive);
+  return options;
+}
+
 AirOptions read_air(const JsonReader& reader) {
   reader.allow_keys({"density_kg_per_m3", "normal_coefficient", "tangent_coefficient", "wind"});
   AirOptions air;
@@ -211,7 +224,7 @@ Json json_pins(const Scene& scene) {
 }
 
 void read_world(const JsonReader& reader, Scene& scene) {
-  reader.allow_keys({"gravity_m_per_s2", "air", "colliders", "contact_response"});
+  reader.allow_keys({"gravity_m_per_s2", "air", "colliders", "contact_response", "self_contact"});
   if (const auto at = reader.find("gravity_m_per_s2")) scene.gravity = at->vec3();
   if (const auto at = reader.find("air")) scene.air = read_air(*at);
   if (const auto at = reader.find("colliders"))
@@ -219,6 +232,7 @@ void read_world(const JsonReader& reader, Scene& scene) {
       scene.colliders.push_back(read_collider(collider, scene.fabric.friction_solid));
   if (const auto at = reader.find("contact_response"))
     scene.contact_response = at->word(kContactResponses);
+  if (const auto at = reader.find("self_contact")) scene.self_contact = read_self_contact(*at);
 }
 
 Json json_world(const Scene& scene) {
@@ -235,6 +249,13 @@ Json json_world(const Scene& scene) {
     json["colliders"].push_back(json_collider(collider));
   if (scene.contact_response != ContactResponse::resting)
     json["contact_response"] = word_for(kContactResponses, scene.contact_response);
+  if (scene.self_contact) {
+    const auto& [friction, thickness] = *scene.self_contact;
+    json["self_contact"] = true;
+    if (friction || thickness) json["self_contact"] = Json::object();
+    if (friction) json["self_contact"]["friction"] = *friction;
+    if (thickness) json["self_contact"]["thickness_m"] = *thickness;
+  }
   return json;
 }
 

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/contact/motion_guard.h"
+#include "core/contact/pair_response.h"
+#include "core/contact/watched_pairs.h"
+#include "core/model/cloth_model.h"
+
+namespace pleat {
+
+/// Keeps a cloth from passing through itself, whatever a stepper proposes.
+class ClothContact {
+ public:
+  /// model  outlives it; with self_contact
+  explicit ClothContact(ClothModel& model);
+
+  /// Takes over pins that changed in number or vertex.
+  void refresh();
+
+  /// Places where a substep starts, to be filled before it [m].
+  Positions& begins() { return begins_; }
+  /// Places that the substep proposes, to be filled before `hold` [m].
+  Positions& ends() { return ends_; }
+
+  /// Change of a vertex: to its place in `ends`, and that much faster [m/s].
+  struct Change {
+    VertexId vertex;
+    Vec3 velocity{0, 0, 0};
+  };
+  /// Corrects the ends of a substep from `begin` to `end` [s]. Returns what changed; valid until
+  /// the next call. Solids of the model are placed.
+  std::span<const Change> hold(double begin, double end);
+
+  /// Sums over all substeps since this was made.
+  struct Sums {
+    std::int64_t n_substeps = 0;
+    std::int64_t n_held = 0;     ///< vertices held back, once for each substep
+    double squared_loss = 0;     ///< of their ways [m^2]
+    std::int64_t n_blocked = 0;  ///< substeps in which prescribed motions left cloth no way
+  };
+  const Sums& sums() const { return sums_; }
+  /// Mean share of the vertices that were held back in a substep.
+  double held_back_share() const { return static_cast<double>(sums_.n_held) / n_ways(); }
+  /// Root mean square of the way that they lost, over all vertices and substeps [m].
+  double rms_loss() const { return std::sqrt(sums_.squared_loss / n_ways()); }
+  int n_pairs() const { return static_cast<int>(pairs_.pairs().size()); }
+  /// Pairs that pushed in the last substep.
+  int n_touching() const { return response_.n_active(); }
+  int n_vertices() const { return model_.n_vertices(); }
+  int n_lists() const { return pairs_.n_lists(); }
+  std::size_t bytes() const;
+
+ private:
+  void press(double h);
+  bool meet_solids(double h);
+  double n_ways() const {
+    return static_cast<double>(std::max<std::int64_t>(1, sums_.n_substeps)) * n_vertices();
+  }
+
+  ClothModel& model_;
+  WatchedPairs pairs_;
+  Movers movers_;
+  PairResponse response_;
+  MotionGuard guard_;
+  std::vector<char> is_pinned_;
+  Positions begins_, ends_, proposed_, pushed_, parted_;
+  Sums sums_;
+  std::vector<Change> changes_;
+};
+
+}  // namespace pleat
