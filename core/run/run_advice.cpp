@@ -77,6 +77,8 @@ std::vector<SettingHint> hints_of_counts(double excess, const MethodOptions& met
   SettingHint hint;
   if (takes_rounds && type.solves_whole_substeps) {
     more.iterations = std::max(type.start.iterations, capped(4.0 * method.iterations, kMaxSweeps));
+    // Errors fall at most as fast as rounds grow: more of them cost more than equilibrium does.
+    if (excess * method.iterations > more.iterations) return {calm_hint(method)};
     hint = {"/method/iterations", more.iterations};
   } else {
     const double frames = type.solves_whole_substeps ? method.step / kFrame : 0;

@@ -1,5 +1,6 @@
 #include "core/run/run_advice.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
 #include <vector>
@@ -61,6 +62,36 @@ TEST_CASE("run_advice: steps of an equal length stay, as frames and references a
     is_offered = is_offered || scene.method.stepper == &steppers::kImplicitEuler;
   }
   CHECK(is_offered);
+}
+
+// 4 e of errors that fall with 1/n^2, and with 1/n^1.5 where sweeps are taken.
+TEST_CASE("run_advice: substeps grow by as much as what is wrong asks for", "[run]") {
+  struct Case {
+    const char* method;
+    double excess;
+    int substeps;
+  };
+  const Case one = GENERATE(values<Case>({{R"({"stepper": "imex", "substeps": 4})", 3.9, 16},
+                                          {R"({"stepper": "imex", "substeps": 4})", 5, 32},
+                                          {R"({"stepper": "pbd", "substeps": 8})", 1.9, 32},
+                                          {R"({"stepper": "pbd", "substeps": 8})", 8, 128}}));
+  CAPTURE(one.method, one.excess);
+  CHECK(hints_for(Kind::soft, one.excess, read(sheet_with(one.method))).back().value ==
+        one.substeps);
+}
+
+TEST_CASE("run_advice: rounds that would have to grow by more than they may give way to implicit",
+          "[run]") {
+  const auto is_offered = [](const char* pointer, double excess) {
+    const Scene scene = read(sheet_with(R"({"stepper": "projective", "iterations": 10})"));
+    const auto hints = hints_for(Kind::soft, excess, scene);
+    return std::any_of(hints.begin(), hints.end(),
+                       [&](const SettingHint& hint) { return hint.pointer == pointer; });
+  };
+  CHECK(is_offered("/method/iterations", 3.9));
+  CHECK_FALSE(is_offered("/method/iterations", 4.1));
+  CHECK(is_offered("/method", 3.9));
+  CHECK(is_offered("/method", 4.1));
 }
 
 TEST_CASE("run_advice: too few substeps for the bound are to be as many as are stable", "[run]") {
