@@ -26,6 +26,8 @@ constexpr double kMostStretch = 1;
 constexpr double kRoomForSwing = 10;
 constexpr double kRoomForEvenSwing = 3;
 constexpr double kLeastSoftness = 0.002;
+/// Stretch below which no edge shows, and stored energy is not asked for.
+constexpr double kLeastStored = 0.02;
 /// The free end of a whip is so many times as fast as its handle.
 constexpr double kWhip = 4;
 constexpr double kLeastSpeed = 1;  // [m/s]
@@ -169,7 +171,7 @@ double driven_speed(const Simulation& simulation) {
 
 }  // namespace
 
-RunWatch::RunWatch(const Simulation& simulation) : rest_(simulation) {
+RunWatch::RunWatch(const Simulation& simulation) : energy_(simulation), rest_(simulation) {
   const ClothModel& model = simulation.model();
   const State& state = simulation.state();
   const double weight = model.masses.sum() * model.gravity.norm();
@@ -183,6 +185,8 @@ RunWatch::RunWatch(const Simulation& simulation) : rest_(simulation) {
   if (is_surface) start_stretch_ = std::min(start_stretch_, kMostStretch);
   has_known_load_ = has_known_load(simulation) && stiffness_ > 0;
   soft_stretch_ = has_known_load_ ? kLeastSoftness : std::numeric_limits<double>::infinity();
+  stored_stretch_ = energy_.is_bounded(simulation) ? kLeastStored + start_stretch_
+                                                   : std::numeric_limits<double>::infinity();
   start_slack_ = has_known_load_ ? slack(simulation) : 0;
   room_for_swing_ = is_hung_evenly(simulation) ? kRoomForEvenSwing : kRoomForSwing;
   start_height_ = greatest_height(up_of(model), state.positions);
@@ -251,28 +255,37 @@ void RunWatch::check_stretch(const Simulation& simulation) {
     VertexId vertex{0};
   };
   Worst longest, worst;  // elongation alone; either
+  const double least = std::min({soft_stretch_, stored_stretch_, most});
   for (const GaugeEdge& edge : simulation.gauge()) {
-    const double least = std::min(soft_stretch_, most);
     if (!is_strained(edge, positions, std::max(longest.strain, least))) continue;
     const double by = strain(edge, positions);
     if (by > longest.strain) longest = {by, edge.a};
     if (std::abs(by) > worst.strain) worst = {std::abs(by), edge.a};
   }
-  const auto is_softer = [&] {
-    const bool is_nonsense = !warnings_.empty() && warnings_[0].kind == RunWarning::Kind::stretch;
-    return longest.strain > soft_stretch_ && !is_nonsense && !simulation.is_disturbed();
+  const auto is_nonsense = [&] {
+    return !warnings_.empty() && warnings_[0].kind == RunWarning::Kind::stretch;
   };
-  if (worst.strain <= most && !is_softer()) return;
-  const double explained = explained_softness(simulation);
+  const auto is_softer = [&] {
+    return longest.strain > soft_stretch_ && !is_nonsense() && !simulation.is_disturbed();
+  };
+  const bool asks_for_energy = longest.strain > stored_stretch_;
+  if (worst.strain <= most && !asks_for_energy && !is_softer()) return;
+  const double by_load = explained_softness(simulation);
+  const double share = asks_for_energy ? energy_.explained_share(simulation)
+                                       : std::numeric_limits<double>::infinity();
   const auto tell = [&](RunWarning::Kind kind, const Worst& of, double bound) {
     if (of.strain <= bound) return;
     warn(simulation, {kind, simulation.time(), of.vertex, of.strain, bound, {}},
-         of.strain / std::min(bound, explained));
+         of.strain / std::min({bound, by_load, share * of.strain}));
   };
   if (worst.strain > most)
     tell(RunWarning::Kind::stretch, worst, most + stretch_between_pins(simulation));
+  if (share < 1) {
+    if (!is_nonsense()) tell(RunWarning::Kind::soft, longest, share * longest.strain);
+    stored_stretch_ = longest.strain;
+  }
   if (!is_softer()) return;
-  soft_stretch_ = std::max(soft_stretch_, explained);
+  soft_stretch_ = std::max(soft_stretch_, by_load);
   tell(RunWarning::Kind::soft, longest, soft_stretch_);
   soft_stretch_ = std::max(soft_stretch_, longest.strain);
 }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/run/energy_watch.h"
 #include "core/run/pin_stretch.h"
 #include "core/run/rest_watch.h"
 #include "core/run/run_warning.h"
@@ -44,6 +45,7 @@ class RunWatch {
   double room_for_swing_;    // weights that a swing pulls by at most
   bool has_known_load_;      // hangs from pins alone, in threads of known stiffness
   double soft_stretch_;      // stretch that the fabric explains, as far as it was asked for [1]
+  double stored_stretch_;    // stretch beyond which stored energy is asked for [1]
   double start_stretch_;     // [1]
   double start_height_;      // height of the highest vertex against gravity [m]
   double start_slack_;       // way that cloth falls until its pins hold it [m]
@@ -51,6 +53,7 @@ class RunWatch {
   double driven_speed_ = 0;  // the largest so far of pins and solids [m/s]
   int n_unsolved_ = 0;       // looks in a row that saw a step left unsolved
   double unsolved_since_ = 0;  // the first of them [s]
+  EnergyWatch energy_;
   PinStretch pin_stretch_;
   RestWatch rest_;
   std::vector<RunWarning> warnings_;
