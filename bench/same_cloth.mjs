@@ -6,6 +6,7 @@ import { markdown } from './parts/bench-rows.mjs';
 import { beads, largeSheets, sheets } from './parts/same-cloth-ball.mjs';
 import { checkCosts } from './parts/same-cloth-check.mjs';
 import { groupGoals, overallGoals } from './parts/same-cloth-goals.mjs';
+import { fineSheets } from './parts/same-cloth-large.mjs';
 import { grips, inclines, slides, terminals } from './parts/same-cloth-motion.mjs';
 import { cantilevers, curtains, flags, sags } from './parts/same-cloth-rest.mjs';
 import {
@@ -60,11 +61,13 @@ const parts = {
   bead: groupOf('bead', beads),
   ball: groupOf('ball', sheets),
   large_ball: groupOf('large_ball', largeSheets),
+  large: fineSheets,
   check_cost: () => checkCosts(steppers().filter((name) => !explicitOnes.includes(name))),
 };
 
 /** All groups that were run: counts of each stepper, and goals. */
-function overall(rows) {
+function overall(all) {
+  const rows = all.filter(({ group }) => group);
   if (rows.length === 0) return null;
   const names = [...new Set(rows.map(({ stepper }) => stepper))];
   return { text: `all groups:\n\n${countTable(rows, names)}`, goals: overallGoals(rows) };
