@@ -108,6 +108,11 @@ RunSummary run_to_end(Simulation& simulation, Watchers& watchers) {
   RunWatch watch(simulation);
   Progress progress;
   add_frame(simulation, watchers, summary);
+  if (scene.self_contact && summary.last_crossings > 0)
+    std::fprintf(stderr,
+                 "pleat: the cloth starts with %lld crossings of itself; self-contact keeps these, "
+                 "and lets no other come\n",
+                 static_cast<long long>(summary.last_crossings));
   std::int64_t topology = simulation.topology();
   while (simulation.n_steps() < n_steps) {
     const SolveReport step_report = run.step();

@@ -16,6 +16,10 @@ namespace {
 constexpr double kKept = 0.1;
 /// Gap that it is never shortened below, in shares of the gap that it rests at.
 constexpr double kFloor = 1e-3;
+/// Share of that gap below which a pair is not apart.
+constexpr double kTogether = 0.5;
+/// Share of a lesser gap that is kept: all of it but for rounding.
+constexpr double kSameGap = 1 - 1e-9;
 constexpr int kMaxPasses = 12;
 constexpr int kMaxLists = 4;
 
@@ -38,6 +42,13 @@ Levels levels(const SurfacePair& pair, const Vec3& n, const Positions& x) {
       levels.lowest_second = std::min(levels.lowest_second, along);
   }
   return levels;
+}
+
+double least_along(const Vec3& n, const std::array<Vec3, 4>& differences, int count) {
+  double least = n.dot(differences[0]);
+  for (int k = 1; k < count; ++k)
+    least = std::min(least, n.dot(differences[static_cast<std::size_t>(k)]));
+  return least;
 }
 
 int root(std::vector<int>& parents, int v) {
@@ -96,17 +107,28 @@ void Movers::clear_moved() {
   moved_.clear();
 }
 
+// A pair ends no nearer than the floor, so that nearer ones have never been apart: the lips of a
+// tear, layers that start in one place. These are left alone until they are.
 bool MotionGuard::is_free(WatchedPair& pair, const Positions& begins, const Positions& ends) {
   const PairWay way = pair_way(pair.sides, begins, ends);
-  if (separates(pair.normal, way)) return true;
+  const double floor = kFloor * pair.gap;
+  if (separates(pair.normal, way) && least_along(pair.normal, way.ends, way.count) >= floor)
+    return true;
+  const double distance = closest_points(way.begins, way.count).difference.norm();
+  const auto ends_apart = [&](const Vec3& n) {
+    return least_along(n, way.ends, way.count) >= kSameGap * std::min(floor, distance);
+  };
+  if (separates(pair.normal, way) && ends_apart(pair.normal)) return true;
+  if (distance < kTogether * floor) return true;
   const std::optional<Vec3> normal = separator(way, pair.normal);
-  if (normal) pair.normal = normal->normalized();
-  return normal.has_value();
+  if (!normal) return false;
+  pair.normal = normal->normalized();
+  return ends_apart(pair.normal);
 }
 
-// What is missing is taken along the normal of the closest points alone, from each side as much as
-// it approaches the pair's own mean motion. What that takes of momentum is given to all four alike:
-// their differences, and so the gap, stay.
+// Takes the missing gap along the normal of the closest points alone, from each side as much as it
+// approaches the pair's own mean motion. Momentum that this takes is given to all four alike: their
+// differences, and so the gap, stay.
 void MotionGuard::shorten(const WatchedPair& pair, const Positions& begins, Positions& ends) {
   const SurfacePair& sides = pair.sides;
   const Vec3 closest =
@@ -171,7 +193,7 @@ void MotionGuard::shorten(const WatchedPair& pair, const Positions& begins, Posi
   }
 }
 
-// Those that failed before, too: what is prescribed moves for none.
+// Looks at those that failed before, too: what is prescribed moves for none.
 void MotionGuard::find_failing(const Positions& begins, const Positions& ends) {
   candidates_ = failing_;
   for (const VertexId v : movers_.moved())
@@ -253,7 +275,7 @@ bool MotionGuard::hold_clusters(const Positions& begins, Positions& ends) {
     }
     is_met = move_clusters(begins, ends);
     find_failing(begins, ends);
-    if (in_clusters_.size() == n_in) break;  // what is left, rounding decides
+    if (in_clusters_.size() == n_in) break;  // rounding decides the rest
   }
   return is_met && failing_.empty();
 }

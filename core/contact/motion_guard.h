@@ -18,7 +18,7 @@ class Movers {
 
   /// 1 / mass [1/kg]; of a vertex that hangs, of both parents. 0 where one is prescribed.
   double inverse_mass(VertexId vertex) const { return inverse_masses_[vertex]; }
-  /// What moves with it: itself twice, or its parents.
+  /// Vertices that move it: itself twice, or its parents.
   const std::array<VertexId, 2>& carriers(VertexId vertex) const { return parents_[vertex]; }
   /// Moves a vertex; of one that hangs both parents, as far.
   void move(VertexId vertex, const Vec3& way, Positions& places);
@@ -63,15 +63,15 @@ class MotionGuard {
   Movers& movers_;
   Positions proposed_;
   std::vector<int> failing_, candidates_;
-  // Of vertices that are held as one.
+  // Motion of vertices that are held as one.
   struct Cluster {
     Vec3 momentum{0, 0, 0};  // times time [kg m]
     Vec3 prescribed{0, 0, 0};
     double mass = 0;  // [kg]
     bool has_prescribed = false, is_torn = false;
   };
-  std::vector<int> next_in_cluster_;  // of each vertex: another of its cluster, itself at the root
-  std::vector<Cluster> clusters_;     // at the roots
+  std::vector<int> next_in_cluster_;  // another of each vertex's cluster, itself at the root
+  std::vector<Cluster> clusters_;     // one at each root
   std::vector<VertexId> in_clusters_;
   std::vector<char> is_in_cluster_;
 };

@@ -33,12 +33,12 @@ class PairResponse {
  private:
   struct Contact {
     int pair;
-    std::array<double, 4> weights;  // of the vertices: negative on the first side
+    std::array<double, 4> weights;  // one of each vertex: negative on the first side
     Vec3 normal;
     double resistance;  // effective mass [kg]
     double wanted;      // least end of the gap [m]
     double push = 0;    // [kg m]
-    Vec3 rub{0, 0, 0};  // across the normal [kg m]
+    Vec3 rub{0, 0, 0};  // friction across the normal [kg m]
   };
 
   void collect(const Positions& begins, const Positions& ends);

@@ -10,7 +10,7 @@ namespace pleat {
 /// Cloth whose faces neither pass through each other nor come nearer than its thickness.
 struct SelfContact {
   std::vector<Triangle> faces;         ///< active ones
-  std::vector<HangingVertex> hanging;  ///< of these faces
+  std::vector<HangingVertex> hanging;  ///< vertices of these faces that hang
   Positions rest_positions;            ///< [m]
   double thickness = 0;  ///< gap that faces rest at [m], positive; less where they were as near
   double friction = 0;   ///< Coulomb coefficient of cloth on cloth, not below 0
@@ -20,7 +20,7 @@ struct SelfContact {
 struct HeldBack {
   int n_vertices = 0;       ///< whose way was shortened, or that were pushed
   double squared_loss = 0;  ///< sum of squared distances from where they would have been [m^2]
-  bool is_blocked = false;  ///< what is prescribed on both sides left no way: it stayed behind
+  bool is_blocked = false;  ///< prescribed vertices on both sides left no way, and stayed behind
 };
 
 }  // namespace pleat

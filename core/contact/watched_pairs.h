@@ -12,7 +12,7 @@ namespace pleat {
 /// A pair that may come to touch, with what is known of it from substep to substep.
 struct WatchedPair {
   SurfacePair sides;
-  Vec3 normal{0, 0, 0};  ///< from the first side to the second; tried first, zero or unit
+  Vec3 normal{0, 0, 0};  ///< direction from the first side to the second, tried first: zero or unit
   double gap = 0;        ///< gap that the sides rest at [m]
   double push = 0;       ///< impulse of the last substep times its length [kg m]
   Vec3 slip{0, 0, 0};    ///< way that friction has still to undo [m]

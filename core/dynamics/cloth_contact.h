@@ -40,7 +40,7 @@ class ClothContact {
   struct Sums {
     std::int64_t n_substeps = 0;
     std::int64_t n_held = 0;     ///< vertices held back, once for each substep
-    double squared_loss = 0;     ///< of their ways [m^2]
+    double squared_loss = 0;     ///< sum over their ways [m^2]
     std::int64_t n_blocked = 0;  ///< substeps in which prescribed motions left cloth no way
   };
   const Sums& sums() const { return sums_; }

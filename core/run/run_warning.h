@@ -25,7 +25,7 @@ struct RunWarning {
     given_up,       ///< a factor solved what the solver that was asked for gave up
     unbalanced,     ///< cloth is at rest where its model is in no equilibrium
     held_back,      ///< the guard of self-contact shortened the ways of many vertices
-    blocked,        ///< what is prescribed left cloth no way: it stayed behind
+    blocked,        ///< pins left cloth no way, and stayed behind
     soft,           ///< cloth stretches more than its fabric would, as yet by no nonsense
   };
   Kind kind;

@@ -102,7 +102,7 @@ struct Scene {
   std::optional<AirOptions> air;
   std::vector<Collider> colliders;
   ContactResponse contact_response = ContactResponse::resting;  ///< response of colliders and body
-  /// What cloth does where it meets itself; without it, it passes through.
+  /// Contact of the cloth with itself; without it, it passes through.
   std::optional<SelfContactOptions> self_contact;
   MethodOptions method;
   double duration = 5;  ///< [s], positive

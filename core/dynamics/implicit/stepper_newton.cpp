@@ -46,6 +46,9 @@ StepperNewton::StepperNewton(ClothModel& model, const MethodOptions& options)
   if (is_at_rest() && model.contact)
     throw InputError("/method/rule",
                      "expected backward_euler or midpoint beside solids, got equilibrium");
+  if (is_at_rest() && model.self_contact)
+    throw InputError("/method/rule",
+                     "expected backward_euler or midpoint with self-contact, got equilibrium");
   if (is_at_rest() && model.air && model.air->has_wind())
     throw InputError("/method/rule",
                      "expected backward_euler or midpoint in wind, got equilibrium");

@@ -361,13 +361,21 @@ SolveReport StepperPositionBased::substep(State& state, double time_end, double 
   return report;
 }
 
+/// True where self-contact has not let a pin go its way: further than rounding.
+bool StepperPositionBased::stayed_behind(const Vec3& at, const Vec3& place) const {
+  constexpr double kRounding = 1e-6;
+  return cloth_contact() != nullptr && (at - place).norm() > kRounding * (extent_ + 1e-3);
+}
+
 /// The residual is relative to that of the predicted places, but where these are right already, as
 /// of cloth that falls, slides or lies, to what weight could make of it.
 void StepperPositionBased::store(State& state, SolveReport& report) {
   const PartScope scope(observer_, Part::convert);
   copy_to(state, step_of(options()));
   for (std::size_t p = 0; p < model_.pins.size(); ++p) {
-    state.positions.col(model_.pins[p].vertex.value) = model_.pins[p].position(time_end_);
+    const Vec3 place = model_.pins[p].position(time_end_);
+    if (stayed_behind(state.positions.col(model_.pins[p].vertex.value), place)) continue;
+    state.positions.col(model_.pins[p].vertex.value) = place;
     state.velocities.col(model_.pins[p].vertex.value) =
         pin_velocities_.col(static_cast<Eigen::Index>(p));
   }

@@ -83,6 +83,7 @@ class StepperPositionBased final : public Stepper {
   void note_unconstrained();
   /// Makes of the velocity at the substep's start what has been added to it.
   void take_gains();
+  bool stayed_behind(const Vec3& at, const Vec3& place) const;
   void place_pins(double time_end, double h);
   void find_air_drag(State& state, double h);
   void add_air_drag();

@@ -232,7 +232,11 @@ void read_world(const JsonReader& reader, Scene& scene) {
       scene.colliders.push_back(read_collider(collider, scene.fabric.friction_solid));
   if (const auto at = reader.find("contact_response"))
     scene.contact_response = at->word(kContactResponses);
-  if (const auto at = reader.find("self_contact")) scene.self_contact = read_self_contact(*at);
+  if (const auto at = reader.find("self_contact")) {
+    scene.self_contact = read_self_contact(*at);
+    if (scene.self_contact && !scene.cloth->is_surface())
+      at->fail("false, as particles have no faces");
+  }
 }
 
 Json json_world(const Scene& scene) {
