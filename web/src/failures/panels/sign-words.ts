@@ -11,6 +11,8 @@ const SIGN_TITLES: Record<Exclude<Sign, 'measured'>, string> = {
   not_converged: 'did not converge',
   given_up: 'a solver gave up',
   unbalanced: 'at rest out of balance',
+  held_back: 'held back by the guard',
+  blocked: 'pins stay behind',
   soft: 'stretched like a softer fabric',
   ended: 'numbers without end',
 };

@@ -12,6 +12,9 @@ function stretchText(strain: number | null): string {
   return strain === null || strain > MANY ? 'many times its length' : `by up to ${percent(strain)}`;
 }
 
+/** Words on a count of substeps. */
+const substepsText = (n: number | null) => (n === 1 ? 'one substep' : `${n ?? 'many'} substeps`);
+
 export function warningSentence({ kind, time_s, value, bound }: RunWarning): string {
   const since = `from ${digits(time_s, 2)} s on`;
   switch (kind) {
@@ -31,5 +34,9 @@ export function warningSentence({ kind, time_s, value, bound }: RunWarning): str
       return `The cloth stretches like a softer fabric: ${since} ${stretchText(value)}, where its own would by ${percent(bound)}.`;
     case 'unbalanced':
       return `Steps that leave too much unsolved hold the cloth up, not its threads: ${since} ${percent(value)} of its weight is unbalanced.`;
+    case 'held_back':
+      return `The guard against self-contact holds back ${percent(value)} of the vertices, ${since}: their motion there is not the method’s own.`;
+    case 'blocked':
+      return `Pins would pull the cloth through itself, and stay behind: ${since} in ${substepsText(value)}.`;
   }
 }
