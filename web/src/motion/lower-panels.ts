@@ -8,6 +8,7 @@ import { createConvergencePanel } from './panels/convergence/convergence-panel';
 import { createEnergyPanel } from './panels/energy/energy-panel';
 import { createLevelPanel } from './panels/levels/level-panel';
 import { createOneSubstep } from './panels/method/one-substep';
+import { createClothContact } from './panels/numbers/cloth-contact';
 import { createSweepPanel } from './panels/speed-error/sweep-panel';
 import { later } from './run/later';
 import type { MotionRun } from './run/motion-run';
@@ -79,6 +80,7 @@ export function createLowerPanels(
   createLevelPanel(panel, store);
   createEnergyPanel(panel, store);
   createLaterContact(panel, store);
+  createClothContact(place('strip'), store);
   createConvergencePanel(panel, store, run);
   createKeyList(panel, HAND_KEYS);
 }

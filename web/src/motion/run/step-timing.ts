@@ -25,12 +25,14 @@ export function createStepTimer(): { feed(numbers: Totals): StepTiming | null; c
       const before = mark.parts_ms;
       mark = numbers;
       const totalMs = work / steps;
-      const parts = Object.entries(numbers.parts_ms)
+      const all = Object.entries(numbers.parts_ms)
         .map(([name, ms]) => ({ name, ms: (ms - (before[name] ?? 0)) / steps }))
-        .sort((a, b) => b.ms - a.ms)
-        .slice(0, NAMED_PARTS);
+        .sort((a, b) => b.ms - a.ms);
+      const parts = all.slice(0, NAMED_PARTS);
       const restMs = parts.reduce((left, part) => left - part.ms, totalMs);
-      return { totalMs, parts: [...parts, { name: 'other', ms: Math.max(0, restMs) }] };
+      parts.push({ name: 'other', ms: Math.max(0, restMs) });
+      const clothContactMs = all.find(({ name }) => name === 'cloth contact')?.ms;
+      return { totalMs, parts, clothContactMs };
     },
     clear() {
       mark = null;

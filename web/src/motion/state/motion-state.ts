@@ -66,6 +66,8 @@ export interface Problem {
 export interface StepTiming {
   totalMs: number;
   parts: { name: string; ms: number }[];
+  /** The part that is contact of the cloth with itself, where there is any. */
+  clothContactMs?: number;
 }
 
 /** `refused`: why the scene tells nothing of responses. */

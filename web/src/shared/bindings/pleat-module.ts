@@ -26,6 +26,22 @@ export interface ReferenceNumbers {
   disturbed: boolean;
 }
 
+/** Contact of a cloth with itself, since the run took its present scene. */
+export interface ClothContactNumbers {
+  /** Pairs of a vertex and a face, or of two edges, that are watched now, and those that touch. */
+  n_pairs: number;
+  n_touching: number;
+  /** Times that pairs were looked for. */
+  n_lists: number;
+  bytes: number;
+  /** Mean share of the vertices whose way the guard shortened in a substep. */
+  held_back_share: number;
+  /** Root mean square of the way that they lost, over all vertices and substeps. */
+  rms_motion_lost_m: number;
+  /** Substeps in which prescribed motions left the cloth no way. */
+  n_blocked_substeps: number;
+}
+
 export interface RunNumbers {
   time_s: number;
   /** Steps since the run took its present scene, as the module tells them; the page counts from the start. */
@@ -40,6 +56,8 @@ export interface RunNumbers {
   asked_stretch: number | null;
   /** Total wall time since load, the first step not counted: of each part that was timed [ms]. */
   parts_ms: Record<string, number>;
+  /** Missing where the scene has the cloth pass through itself. */
+  cloth_contact?: ClothContactNumbers;
   /** Time of the steps as a whole [ms], of which there were `steps_timed`. */
   steps_ms: number;
   steps_timed: number;
