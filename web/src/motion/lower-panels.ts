@@ -4,6 +4,7 @@ import { createKeyList, HAND_KEYS } from '../shared/panels/keys-panel';
 import { addSection } from '../shared/panels/section';
 import { createWhyLink } from '../shared/panels/why-link';
 import { type Store, watch } from '../shared/state/store';
+import { createSelfContact } from './panels/contact/self-contact';
 import { createConvergencePanel } from './panels/convergence/convergence-panel';
 import { createEnergyPanel } from './panels/energy/energy-panel';
 import { createLevelPanel } from './panels/levels/level-panel';
@@ -48,9 +49,10 @@ function createLaterSweep(store: Store<MotionState>): Sweep {
   };
 }
 
-/** Tells what contact does where there are solids. */
-function createLaterContact(parent: HTMLElement, store: Store<MotionState>): void {
+/** Contact of the cloth with itself; and what contact does where there are solids. */
+function createContact(parent: HTMLElement, store: Store<MotionState>): void {
   const section = addSection(parent, 'Contact');
+  createSelfContact(section, store);
   const bring = later(store, 'The panel of contact', async () => {
     const { createContactPanel } = await import('./panels/contact/contact-panel');
     return createContactPanel(section, store);
@@ -79,7 +81,7 @@ export function createLowerPanels(
   createSweepPanel(panel, store, createLaterSweep(store), showChart);
   createLevelPanel(panel, store);
   createEnergyPanel(panel, store);
-  createLaterContact(panel, store);
+  createContact(panel, store);
   createClothContact(place('strip'), store);
   createConvergencePanel(panel, store, run);
   createKeyList(panel, HAND_KEYS);

@@ -32,7 +32,8 @@ export function workWords(type: string, { level }: Setting): string {
 }
 
 /** Parts of a setting by their names on the page. */
-function partsOf({ stepper, level, fabric, model, stepS, ...counts }: Setting): [string, string][] {
+function partsOf(setting: Setting): [string, string][] {
+  const { stepper, level, fabric, model, stepS, meetsItself, ...counts } = setting;
   const { title, settings } = stepperRow(stepper);
   const read = COUNTS.filter((count) => settings[count]);
   return [
@@ -41,6 +42,7 @@ function partsOf({ stepper, level, fabric, model, stepS, ...counts }: Setting): 
     ['fabric', fabric],
     ['model', MODEL_TRAITS[model].title],
     ['step', stepTitle(stepS)],
+    ['contact of the cloth with itself', meetsItself ? 'on' : 'off'],
     ...read.map((count): [string, string] => [
       `number of ${count}`,
       `${counts[count] || 'stable'}`,

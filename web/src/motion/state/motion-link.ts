@@ -178,6 +178,8 @@ export function encodeMotionLink(link: MotionLink): string {
   if (link.compare) parts.push(['compare', 'on']);
   if (link.camera) parts.push(['camera', poseText(link.camera)]);
   if (setting.bounces) parts.push(['response', 'uniform']);
+  if (setting.meetsItself !== presetSetting(setting.preset).meetsItself)
+    parts.push(['self_contact', setting.meetsItself ? 'on' : 'off']);
   if (setting.knit) parts.push(['knit', knitText(setting.knit)]);
   if (setting.preset === 'obj') parts.push(['hold', encodeURIComponent(setting.hold)]);
   return parts.map(([key, value]) => `${key}=${value}`).join('&');
@@ -203,8 +205,10 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
   };
   const responses = ['resting', 'uniform'] as const;
   const response = take('response', 'resting', responses.join(' or '), oneOf(responses));
+  const meetsItself = takeSwitch('self_contact', own.meetsItself);
   const setting: Setting = takeDetails(reader, {
     ...start,
+    meetsItself: meetsItself || undefined,
     fabric: take('fabric', own.fabric, 'the name of a fabric', (text) => {
       return fabrics.find((fabric) => slug(fabric.name_en) === text)?.name_en;
     }),

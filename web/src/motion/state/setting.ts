@@ -55,6 +55,8 @@ export interface Setting {
   knit?: Knit;
   /** The cloth bounces off solids, for comparison. */
   bounces?: boolean;
+  /** The cloth does not pass through itself. */
+  meetsItself?: true;
 }
 
 interface SceneFile {
@@ -67,7 +69,7 @@ interface SceneFile {
   };
   fabric: { name: string; overrides?: OwnQuantities };
   model?: { tearing?: object; [law: string]: unknown };
-  world?: object;
+  world?: { self_contact?: boolean | object; [part: string]: unknown };
   refinement?: { level?: number };
   method: {
     stepper: string;
@@ -238,7 +240,7 @@ function startSubsteps({ preset, level, stepper, stepS, substeps, knit }: Settin
 
 /** The setting a preset is made for. */
 export function presetSetting(preset: PresetId): Setting {
-  const { fabric, refinement, method, cloth } = PRESETS[preset].scene;
+  const { fabric, refinement, method, cloth, world } = PRESETS[preset].scene;
   return {
     preset,
     fabric: fabric.name,
@@ -251,6 +253,7 @@ export function presetSetting(preset: PresetId): Setting {
     details: detailsOf(method.stepper, method),
     hold: 'highest',
     ...(cloth.knit && { knit: knitOf(cloth.knit) }),
+    ...(world?.self_contact && { meetsItself: true }),
   };
 }
 
@@ -319,9 +322,14 @@ function modelOf({ preset, model }: Setting): object {
   return { ...own, elasticity: model };
 }
 
-function worldOf({ preset, bounces }: Setting): object | undefined {
-  const { world } = PRESETS[preset].scene;
-  return bounces ? { ...world, contact_response: 'uniform' } : world;
+/** Numbers that a preset has of contact with itself hold wherever there is any. */
+function worldOf({ preset, bounces, meetsItself }: Setting): object {
+  const { self_contact: own, ...world } = PRESETS[preset].scene.world ?? {};
+  return {
+    ...world,
+    ...(bounces && { contact_response: 'uniform' }),
+    ...(meetsItself && { self_contact: own || true }),
+  };
 }
 
 /** The scene as the module reads it; `mesh` is the cloth of the preset that is any mesh. */

@@ -43,12 +43,13 @@ const LEVELS_TO_BOUND = 2;
 
 /** The key of a cost: what it depends on, beside the fabric, which matters little. */
 function keyOf(setting: Setting): string {
-  const { preset, model, stepper, stepS, level, knit } = setting;
+  const { preset, model, stepper, stepS, level, knit, meetsItself } = setting;
   const { settings } = stepperRow(stepper);
   const counts = COUNTS.filter((count) => settings[count]).map((count) => setting[count]);
   const particles = knit ? [knit.columns * knit.rows] : [];
   const share = wantedShare(setting);
   const details = Object.entries(setting.details ?? {}).flat();
+  if (meetsItself) details.push('meets itself');
   const steps = [Math.round(1 / stepS), ...counts, share, ...details];
   return [preset, ...particles, model, stepper, ...steps, level].join(' ');
 }

@@ -40,13 +40,14 @@ export const NO_SWEEP: SweepState = {
 };
 
 /** The scene that a sweep measures: rows of another scene, fabric or model say nothing of it. */
-export interface SweptScene extends Pick<Setting, 'preset' | 'fabric' | 'model' | 'hold' | 'knit'> {
+export interface SweptScene
+  extends Pick<Setting, 'preset' | 'fabric' | 'model' | 'hold' | 'knit' | 'meetsItself'> {
   mesh: ObjMesh | null;
 }
 
 export function sweptScene(setting: Setting, mesh: ObjMesh | null): SweptScene {
-  const { preset, fabric, model, hold, knit } = setting;
-  return { preset, fabric, model, hold, knit, mesh: preset === 'obj' ? mesh : null };
+  const { preset, fabric, model, hold, knit, meetsItself } = setting;
+  return { preset, fabric, model, hold, knit, meetsItself, mesh: preset === 'obj' ? mesh : null };
 }
 
 function isOf(swept: SweptScene | null, shown: SweptScene): boolean {

@@ -4,12 +4,12 @@ import { type Store, watch } from '../../../shared/state/store';
 import { later } from '../../run/later';
 import type { MotionState } from '../../state/motion-state';
 
-export function createContactPanel(section: HTMLElement, store: Store<MotionState>): void {
+export function createContactPanel(parent: HTMLElement, store: Store<MotionState>): void {
   const box = folded('Contact: cloth that rests, and cloth that bounces', {
     class: 'contact',
     toggle: () => void open(),
   });
-  section.append(box);
+  parent.append(box);
   const bring = later(store, 'The figure of contact', async () => {
     const { createContactChart } = await import('./contact-chart');
     return createContactChart(box, store);
@@ -18,6 +18,6 @@ export function createContactPanel(section: HTMLElement, store: Store<MotionStat
     if (box.open) (await bring())?.follow();
   }
   watch(store, ['colliders'], ({ colliders }) => {
-    section.hidden = colliders.length === 0;
+    box.hidden = colliders.length === 0;
   });
 }
