@@ -1,6 +1,7 @@
 // The choice that a cloth meets itself: in the scene, the link, the costs and sweeps.
 import { afterEach, describe, expect, it } from 'vitest';
 import { selfContactWords } from '../../src/motion/panels/contact/self-contact';
+import { referenceUrl } from '../../src/motion/run/references';
 import { backWords } from '../../src/motion/run/run-words';
 import { decodeMotionLink, encodeMotionLink } from '../../src/motion/state/motion-link';
 import {
@@ -79,6 +80,11 @@ describe('cloth that meets itself', () => {
     const rowOf = (setting: Setting) => rowOfSetting({ sweep, setting, mesh: null });
     expect(rowOf(curtain)).toBe(row);
     expect(rowOf(meeting)).toBeNull();
+  });
+
+  it('has not the reference of cloth that passes through itself', () => {
+    expect(referenceUrl(curtain)).toMatch(/curtain\.reference/);
+    expect(referenceUrl(meeting)).toBeNull();
   });
 
   it('is told where the page goes back from it', () => {

@@ -55,6 +55,9 @@ describe('what a sweep would take', () => {
   it('has the references in it where none are shipped', () => {
     const silk = { ...shown, fabric: 'silk' };
     expect(expected(measured, silk)).toBeGreaterThan(2 * expected(measured));
+    const meeting: Setting = { ...shown, meetsItself: true };
+    const costs = withCost({}, meeting, 4);
+    expect(expected(costs, meeting)).toBeGreaterThan(2 * expected(measured));
   });
 
   it('has those of levels in it that are finer than what is shipped', () => {

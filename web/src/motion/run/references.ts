@@ -8,9 +8,10 @@ const FILES = import.meta.glob<string>('../../../../assets/references/*.referenc
 });
 
 /** The address of a setting's reference, by the names "curtain" and "curtain_membrane". */
-export function referenceUrl({ preset, fabric, model }: Setting): string | null {
+export function referenceUrl({ preset, fabric, model, meetsItself }: Setting): string | null {
   const own = presetSetting(preset);
-  if (fabric !== own.fabric) return null; // it could not match: half a megabyte for nothing
+  // It could not match: half a megabyte for nothing.
+  if (fabric !== own.fabric || meetsItself !== own.meetsItself) return null;
   const scene = preset.replaceAll('-', '_');
   const name = model === own.model ? scene : `${scene}_${model}`;
   return FILES[`../../../../assets/references/${name}.reference`] ?? null;

@@ -42,9 +42,10 @@ function stepMs(costs: StepCosts, planned: Setting, shown: Setting): number | nu
 const REFERENCE_STEPS_PER_S = 960 * 1.5;
 
 /** The finest level whose own reference is shipped for the shown cloth; -1 for none. */
-function finestShipped({ preset, fabric, model }: Setting): number {
-  const own = presetSetting(preset);
-  return fabric === own.fabric && model === own.model ? (FINEST_SHIPPED[preset] ?? -1) : -1;
+function finestShipped(setting: Setting): number {
+  const own = presetSetting(setting.preset);
+  const isOwn = (['fabric', 'model', 'meetsItself'] as const).every((p) => setting[p] === own[p]);
+  return isOwn ? (FINEST_SHIPPED[setting.preset] ?? -1) : -1;
 }
 
 /** Every level's own reference, where none is shipped [ms]. */
