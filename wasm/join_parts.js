@@ -7,7 +7,9 @@ Module['instantiateWasm'] = (imports, receive) => {
   };
   const placeholder = new Proxy({}, { get: () => missing });
   const join = async (instance) => {
-    if (rest) await WebAssembly.instantiate(rest, { primary: instance.exports });
+    const add = (part) => WebAssembly.instantiate(part, { primary: instance.exports });
+    if (rest) await add(rest);
+    else Module['join'] = add; // joins the rest later
     receive(instance);
   };
   WebAssembly.instantiate(first, { placeholder, ...imports }).then(join).catch(readyPromiseReject);

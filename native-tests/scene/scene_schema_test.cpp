@@ -63,6 +63,8 @@ const char* const kFurtherScenes[] = {
     R"({"cloth": {"sheet": {}}, "method": {"stepper": "newton", "solver": "cg",
         "preconditioner": "multigrid"}})",
     R"({"cloth": {"sheet": {}}, "world": {"contact_response": "uniform"}})",
+    R"({"cloth": {"sheet": {}}, "world": {"self_contact": true}})",
+    R"({"cloth": {"sheet": {}}, "world": {"self_contact": {"friction": 0.5, "thickness_m": 1e-3}}})",
     R"({"cloth": {"sheet": {}}, "model": {"elasticity": "membrane", "stiffening_strain": 0.06}})",
     R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0], [0, 0, 1]], "masses_kg": [1, 1, 1],
         "bends": [{"vertices": [0, 1, 2], "stiffness_n_m3": 1, "weights_per_m2": [1, -2, 1]}],

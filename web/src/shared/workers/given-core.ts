@@ -1,6 +1,7 @@
 // The core in a worker, made of what the page has compiled.
 import createPleat from '../../wasm/pleat.mjs';
 import type { CoreLetter } from './compiled-core';
+import { takeModule } from './later-core';
 
 /** The core's classes, or the part of them that the caller names. */
 export async function givenCore<Part>(): Promise<Part> {
@@ -9,5 +10,7 @@ export async function givenCore<Part>(): Promise<Part> {
       if ('core' in data) resolve(data.core);
     });
   });
-  return createPleat<Part>({ parts });
+  const module = await createPleat<Part & object>({ parts });
+  takeModule(module);
+  return module;
 }

@@ -3,6 +3,7 @@ import { describe } from '../bindings/answers';
 import { type Refusal, refusalOf } from '../bindings/refusals';
 import type { Done, Letter, Message, Reply } from './asked';
 import type { CoreLetter } from './compiled-core';
+import { prepareFor } from './later-core';
 import { holdLife } from './life';
 
 /** The part of a worker's scope that is used. */
@@ -72,7 +73,9 @@ export function serve<Question, Answer extends Message>(
     const { id, message } = data;
     turn = turn.then(async () => {
       asked = id;
-      await (await core).receive(message);
+      const ready = await core;
+      await prepareFor(message);
+      await ready.receive(message);
       if (asked !== null) post(DONE, []);
     });
     turn.catch(breakDown);
