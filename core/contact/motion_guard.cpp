@@ -220,12 +220,20 @@ bool MotionGuard::settle(const Positions& begins, Positions& ends) {
   return failing_.empty() || hold_clusters(begins, ends);
 }
 
-void MotionGuard::join(VertexId vertex, VertexId other) {
+/// True where they were not of one cluster yet.
+bool MotionGuard::join(VertexId vertex, VertexId other) {
+  bool is_new = false;
   for (const VertexId v : movers_.carriers(vertex)) {
-    if (!std::exchange(is_in_cluster_[v], 1)) in_clusters_.push_back(v);
-    next_in_cluster_[static_cast<std::size_t>(root(next_in_cluster_, v))] =
-        root(next_in_cluster_, movers_.carriers(other)[0]);
+    if (!std::exchange(is_in_cluster_[v], 1)) {
+      in_clusters_.push_back(v);
+      is_new = true;
+    }
+    const int from = root(next_in_cluster_, v);
+    const int to = root(next_in_cluster_, movers_.carriers(other)[0]);
+    is_new = is_new || from != to;
+    next_in_cluster_[static_cast<std::size_t>(from)] = to;
   }
+  return is_new;
 }
 
 // A prescribed motion is that of its cluster; where two differ, nothing in it moves.
@@ -268,14 +276,14 @@ void MotionGuard::clear_clusters(std::size_t n_vertices) {
 bool MotionGuard::hold_clusters(const Positions& begins, Positions& ends) {
   clear_clusters(static_cast<std::size_t>(begins.cols()));
   bool is_met = true;
-  for (std::size_t n_in = 0; !failing_.empty(); n_in = in_clusters_.size()) {
+  for (bool grows = true; grows && !failing_.empty();) {
+    grows = false;
     for (const int p : failing_) {
       const auto& vertices = pairs_.pairs()[static_cast<std::size_t>(p)].sides.vertices;
-      for (const VertexId v : vertices) join(v, vertices[0]);
+      for (const VertexId v : vertices) grows = join(v, vertices[0]) || grows;
     }
     is_met = move_clusters(begins, ends);
     find_failing(begins, ends);
-    if (in_clusters_.size() == n_in) break;  // rounding decides the rest
   }
   return is_met && failing_.empty();
 }

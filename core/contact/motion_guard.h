@@ -55,7 +55,7 @@ class MotionGuard {
   bool hold_clusters(const Positions& begins, Positions& ends);
   HeldBack loss(const Positions& ends) const;
   void clear_clusters(std::size_t n_vertices);
-  void join(VertexId vertex, VertexId other);
+  bool join(VertexId vertex, VertexId other);
   bool move_clusters(const Positions& begins, Positions& ends);
   void find_failing(const Positions& begins, const Positions& ends);
 

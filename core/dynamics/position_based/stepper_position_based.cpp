@@ -363,8 +363,8 @@ SolveReport StepperPositionBased::substep(State& state, double time_end, double 
 
 /// True where self-contact has not let a pin go its way: further than rounding.
 bool StepperPositionBased::stayed_behind(const Vec3& at, const Vec3& place) const {
-  constexpr double kRounding = 1e-6;
-  return cloth_contact() != nullptr && (at - place).norm() > kRounding * (extent_ + 1e-3);
+  constexpr double kFarther = 1e-8;  // relative
+  return cloth_contact() != nullptr && (at - place).norm() > kFarther * (extent_ + 1e-3);
 }
 
 /// The residual is relative to that of the predicted places, but where these are right already, as

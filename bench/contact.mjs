@@ -1,0 +1,9 @@
+// ./pleat bench contact (--help tells the options)
+// Whether cloth passes through itself, what the guard against that takes from its motion, and what
+// it costs.
+import { runParts } from './parts/bench-parts.mjs';
+import { absent, cost } from './parts/contact-cost.mjs';
+import { crossings } from './parts/contact-crossings.mjs';
+
+const parts = { crossings, cost, absent };
+await runParts('contact', 'whether cloth passes through itself, and what a guard costs', parts);
