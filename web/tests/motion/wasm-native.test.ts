@@ -6,7 +6,7 @@ import { MODELS, presetSetting } from '../../src/motion/state/setting';
 import { ENERGY_NUMBERS, type PleatModule } from '../../src/shared/bindings/pleat-module';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { canRun, type Model, STEPPER_NAMES } from '../../src/shared/steppers/steppers';
-import { loadFirst } from '../support/built-module';
+import { loadFirst, loadModule } from '../support/built-module';
 import { nativeConvergence, nativeEnergy, nativePositions } from '../support/native-command';
 
 /** Steps of a run: rk4, in its hundreds of stable substeps, takes seconds for twenty. */
@@ -205,7 +205,7 @@ describe('WebAssembly against native', () => {
       const names = methods.map(({ method }) => method.stepper).join();
       const words = ['--methods', names, '--constraints', constraints];
       const native = nativeConvergence(scene, [...words, '--at', '0.25', '--rounds', '65']);
-      const { studyConvergence } = await loadFirst();
+      const { studyConvergence } = await loadModule();
       const told: number[] = [];
       const answer = JSON.parse(
         studyConvergence(fabricsText, JSON.stringify(scene), JSON.stringify(wish), (done) =>

@@ -7,8 +7,12 @@ import type { SweepModule } from '../../src/motion/bindings/sweep-module';
 import type { RefinementModule } from '../../src/refinement/bindings/refinement-module';
 import type { PleatModule } from '../../src/shared/bindings/pleat-module';
 
-export type FirstModule = PleatModule & SweepModule & ConvergenceModule;
-export type BuiltModule = FirstModule & DeformModule & RefinementModule & ModalModule;
+export type FirstModule = PleatModule & SweepModule;
+export type BuiltModule = FirstModule &
+  ConvergenceModule &
+  DeformModule &
+  RefinementModule &
+  ModalModule;
 
 export const loadModule = () => builtCore<BuiltModule>();
 

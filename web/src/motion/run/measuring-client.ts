@@ -1,6 +1,6 @@
 // Starts the workers that measure beside the shown cloth.
 import type { Asked, Done, Listener } from '../../shared/workers/asked';
-import { startAsked } from '../../shared/workers/compiled-core';
+import { startAsked, WHOLE } from '../../shared/workers/compiled-core';
 import type { FromConvergence, ToConvergence } from '../worker/convergence-protocol';
 import type { RacedMessage, StudiedMessage, ToMeasuring } from '../worker/measuring-protocol';
 import type { FromSweep, PlannedMessage, ToSweep } from '../worker/sweep-protocol';
@@ -38,5 +38,6 @@ export function startConvergenceWorker(listener: Listener<FromConvergence>): Con
   return startAsked(
     new Worker(new URL('../worker/convergence-worker.ts', import.meta.url), { type: 'module' }),
     listener,
+    WHOLE,
   );
 }

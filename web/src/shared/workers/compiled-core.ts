@@ -12,7 +12,7 @@ export interface CoreLetter {
 /** Addresses of what a first visit shows and measures. */
 const FIRST = [first];
 
-/** Addresses of all: of what the views of fabrics, modes and refinement need. */
+/** Addresses of all: of what convergence and the views of fabrics, modes and refinement need. */
 export const WHOLE = [first, rest];
 
 const compiled = new Map<string, Promise<WebAssembly.Module>>();
