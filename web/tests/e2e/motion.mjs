@@ -553,6 +553,40 @@ async function checkInside({ check }, visit) {
     }),
   );
 
+  await check('cloth that meets itself goes on running, and what that costs is told', () =>
+    visit('#scene=tablecloth&level=1', async (page) => {
+      const choiceOf = page.getByRole('checkbox', { name: 'Cloth meets itself' });
+      const cell = page.locator('#strip .cloth-contact');
+      const line = page.locator('#strip .held-back');
+      await button(page, 'Play').click();
+      await until(page, (state) => state.numbers.time_s > 0.2);
+      expectThat(!(await cell.isVisible()) && !(await line.isVisible()), 'told of cloth without');
+      await choiceOf.focus();
+      await page.keyboard.press('Space');
+      const on = await until(
+        page,
+        ({ setting, timing }) => setting.meetsItself && timing?.clothContactMs > 0,
+      );
+      expectThat(on.playing && on.problem === null, `it says: ${on.problem?.sentence}`);
+      expectThat(on.numbers.time_s > 0.2, 'it began anew');
+      await eventually(
+        async () => /^Self-contact[\d.]+ ms[\d.]+ % of a step$/.test(await cell.textContent()),
+        'what it costs',
+      );
+      expectThat(/^Held back: /.test(await line.textContent()), await line.textContent());
+      await eventually(async () => /self_contact=on/.test(page.url()), 'a link that has it');
+      await choiceOf.uncheck();
+      const off = await until(
+        page,
+        ({ phase, numbers }) =>
+          phase === 'ready' && !numbers.cloth_contact && numbers.time_s > on.numbers.time_s + 0.1,
+      );
+      expectThat(off.playing, 'it stopped');
+      expectThat(!(await cell.isVisible()) && !(await line.isVisible()), 'still told');
+      expectThat(!/self_contact/.test(page.url()), page.url());
+    }),
+  );
+
   await check('springs are drawn by whether they are implicit, and their share is told', () =>
     visit('#scene=swinging-sheet&level=0&stepper=imex&step=1/240', async (page) => {
       const without = await picture(page);
