@@ -1,4 +1,4 @@
-// What self-contact costs a frame, by the number of faces, of cloth that swings and of cloth in
+// Cost of self-contact in a frame, by the number of faces, of cloth that swings and of cloth in
 // folds; and what a scene pays that has it switched off.
 import {
   atMost,
@@ -18,11 +18,11 @@ import { by, cotton, kEdge, kLimp, kStep, lying } from './sheets.mjs';
 
 const kMethod = { stepper: 'multigrid', substeps: 5 };
 const kFrames = 36;
-const kCells = [32, 72, 160]; // along a side: 2 000, 10 000 and 50 000 faces
+const kCells = [32, 72, 160]; // cells along a side: 2 000, 10 000 and 50 000 faces
 const kTurnFrames = { 32: 12, 72: 3, 160: 1 };
 const kScenes = { swinging, curtain: (n) => curtain(n, kFrames * kStep) };
 
-const kMostUsPerFace = 1; // in a frame, at 10 000 faces
+const kMostUsPerFace = 1; // us a face in a frame, at 10 000 faces
 const kMostGrowth = 1.15;
 const kNoise = 1.05; // interleaved medians differ by less
 

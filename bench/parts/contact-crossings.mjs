@@ -15,7 +15,7 @@ const kInEveryScene = ['implicit', 'projective', 'xpbd', 'multigrid'];
 const kCoarse = 8; // cells along a side, for steppers of hundreds of substeps a frame
 const kTurnFrames = 8;
 const kMostHeldBack = 0.01; // share of the vertices, on average
-const kMostLostMm = 0.2; // in a frame
+const kMostLostMm = 0.2; // mm lost in a frame
 
 /** The run's metrics. Crossings are counted of runs that write into a folder. */
 const metricsOf = (scene) =>
