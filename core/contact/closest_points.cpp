@@ -93,7 +93,9 @@ ClosestPoints edge_points(const std::array<Vec3, 4>& d) {
     return {{1 - inside.w, inside.w, 1 - inside.v, inside.v}, inside.difference};
   const BorderPoint point = border_point(d, kLines);
   // A difference's number is 2 a + b, a and b the ends that it joins.
-  const double at_a = (1 - point.share) * (point.from / 2) + point.share * (point.to / 2);
+  const int from_a = point.from / 2;
+  const int to_a = point.to / 2;
+  const double at_a = (1 - point.share) * from_a + point.share * to_a;
   const double at_b = (1 - point.share) * (point.from % 2) + point.share * (point.to % 2);
   return {{1 - at_a, at_a, 1 - at_b, at_b}, point.difference};
 }

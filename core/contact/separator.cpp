@@ -119,7 +119,7 @@ std::optional<Vec3> part_separator(const PairWay& part, const Differences& sizes
   if (separates_part(at_begin, part, sizes)) return at_begin;
   const Vec3 at_end = scaled(closest_points(part.ends, part.count).difference);
   if (separates_part(at_end, part, sizes)) return at_end;
-  if (const auto normal = hull_normal(part, sizes, at_begin)) return normal;
+  if (auto normal = hull_normal(part, sizes, at_begin)) return normal;
   if (most_parts < 2) return std::nullopt;
 
   PairWay half = part;

@@ -24,8 +24,9 @@ struct Layers {
     for (int layer = 0; layer < n_layers; ++layer) {
       // Turned and shifted a little: no edge lies above another.
       for (int i = 0; i < n_each; ++i) {
+        const int row = i / side;
         const double u = i % side + 0.3 * layer;
-        const double v = i / side + 0.2 * layer;
+        const double v = row + 0.2 * layer;
         begins.col(layer * n_each + i) << kSpacing * (u + 0.1 * v * layer), gap * layer,
             kSpacing * v;
       }

@@ -27,7 +27,8 @@ struct LyingSquare {
     model.masses = Eigen::VectorXd::Constant(n, 1e-3);
     model.self_contact.emplace();
     for (int i = 0; i < first; ++i) {
-      state.positions.col(i) << 0.5 * (i % kWide - 1), 0, 0.13 * (i / kWide - 3);
+      const int row = i / kWide;
+      state.positions.col(i) << 0.5 * (i % kWide - 1), 0, 0.13 * (row - 3);
       model.pins.push_back({VertexId(i), state.positions.col(i), {}});
     }
     const std::array<Vec3, 4> square = {Vec3(0.013, gap, 0.021), Vec3(0.113, gap, 0.021),

@@ -53,6 +53,13 @@ std::vector<std::string> read_numbers(const JsonReader& reader, FabricConstants&
   return keys;
 }
 
+/// False of numbers without which the scene moves as it does with them.
+bool is_asked_for(const FabricNumber& number, const Scene& scene) {
+  if (number.field == &FabricConstants::bend_hysteresis) return scene.fabric.bend_hysteresis > 0;
+  if (number.field == &FabricConstants::friction_fabric) return scene.self_contact.has_value();
+  return true;
+}
+
 }  // namespace
 
 void read_fabric(const JsonReader& reader, const FabricLibrary& fabrics, Scene& scene) {
@@ -80,9 +87,8 @@ Json json_fabric(const Scene& scene) {
   Json numbers = Json::object();
   for (const FabricNumber& number : kNumberFields) {
     const auto& keys = scene.fabric_overrides;
-    const bool is_own = !scene.fabric_is_named &&
-                        (number.key != kHysteresisKey || scene.fabric.bend_hysteresis > 0);
-    if (is_own || std::find(keys.begin(), keys.end(), number.key) != keys.end())
+    if ((!scene.fabric_is_named && is_asked_for(number, scene)) ||
+        std::find(keys.begin(), keys.end(), number.key) != keys.end())
       numbers[number.key] = scene.fabric.*number.field;
   }
   if (!scene.fabric_is_named) return numbers;
