@@ -89,8 +89,9 @@ bool stays_ahead(const std::vector<MovingDifference>& differences, const Vec3& a
 /// difference at a time is longest. Zero where none is positive.
 Vec3 best_axis(const std::vector<MovingDifference>& differences, double time) {
   std::vector<Vec3> places;
+  places.reserve(differences.size());
   for (const MovingDifference& d : differences)
-    places.push_back((1 - time) * d.begin + time * d.end);
+    places.emplace_back((1 - time) * d.begin + time * d.end);
   Vec3 best = Vec3::Zero();
   double most = 0;
   const auto try_axis = [&](const Vec3& axis) {
