@@ -22,9 +22,9 @@ struct PlanePoint {
   Vec3 difference{0, 0, 0};
 };
 
-// With n = f x g, p + v f + w g is along n. Dotted with g x n and f x n, which are across n,
-//   v = -p.(g x n)/n.n,   w = p.(f x n)/n.n,
-// and what is left is p's part along n.
+// Point of the plane p + v f + w g that is nearest to the origin. It lies along n = f x g; its
+// products with g x n and f x n, which are across n, are therefore zero:
+//   v = -p.(g x n)/n.n,   w = p.(f x n)/n.n.
 PlanePoint plane_point(const Vec3& p, const Vec3& f, const Vec3& g) {
   const Vec3 n = f.cross(g);
   const double square = n.squaredNorm();
