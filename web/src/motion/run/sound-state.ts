@@ -26,7 +26,9 @@ export interface SoundState extends Way {
 /** Why there is none: each was wrong, or nobody waits until that is known. */
 export type NoSoundState = 'never sound' | 'too long';
 
-const isWrong = ({ warnings }: RunNumbers) => warnings.some(({ is_nonsense }) => is_nonsense);
+/** True once cloth shows what its scene cannot explain: such a stretch is not worked off at once. */
+const isWrong = ({ warnings }: RunNumbers) =>
+  warnings.some(({ kind, is_nonsense }) => is_nonsense || kind === 'soft');
 
 /** The state at these numbers; null where it is at rest at the start, or not sound. */
 function soundAt(course: readonly Leg[], numbers: RunNumbers): SoundState | null {
