@@ -90,17 +90,29 @@ Vec3 EnergyLedger::missing_impulse(VertexId vertex, const State& begin, const St
 }
 
 void EnergyLedger::record_contact(const State& begin, const State& end, double time_end,
-                                  double step) {
+                                  double step, std::span<const char> on_cloth) {
   for (const ContactPass::Support& support : model_.contact->supports(end.positions, time_end)) {
     const VertexId v = support.vertex;
-    if (is_pinned_[v]) continue;
+    if (is_pinned_[v] || (!on_cloth.empty() && on_cloth[v])) continue;
     const Vec3 impulse =
         coulomb_part(missing_impulse(v, begin, end, step), support.normal, support.friction);
     works_.contact += impulse.dot(begin.velocities.col(v) + end.velocities.col(v)) / 2;
   }
 }
 
-void EnergyLedger::record(const State& begin, const State& end, double time_end, double step) {
+void EnergyLedger::record_cloth_contact(const State& begin, const State& end, double step,
+                                        std::span<const char> on_cloth) {
+  for (int i = 0; i < static_cast<int>(on_cloth.size()); ++i) {
+    const VertexId v(i);
+    if (!on_cloth[v] || is_pinned_[v] || model_.hangs(v)) continue;
+    works_.cloth_contact +=
+        missing_impulse(v, begin, end, step).dot(begin.velocities.col(i) + end.velocities.col(i)) /
+        2;
+  }
+}
+
+void EnergyLedger::record(const State& begin, const State& end, double time_end, double step,
+                          std::span<const char> on_cloth) {
   PLEAT_CHECK(step > 0, "a step is positive");
   PLEAT_CHECK(
       begin.positions.cols() == model_.n_vertices() && end.positions.cols() == model_.n_vertices(),
@@ -120,7 +132,8 @@ void EnergyLedger::record(const State& begin, const State& end, double time_end,
                        .dot(begin.velocities.col(pin.vertex) + end.velocities.col(pin.vertex)) /
                    2;
   }
-  if (model_.contact) record_contact(begin, end, time_end, step);
+  if (model_.contact) record_contact(begin, end, time_end, step, on_cloth);
+  record_cloth_contact(begin, end, step, on_cloth);
   parts_ = energy_parts(model_, end);
   largest_kinetic_energy_ = std::max(largest_kinetic_energy_, parts_.kinetic);
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "core/model/cloth_model.h"
 #include "core/model/elasticity.h"
@@ -24,9 +25,12 @@ class EnergyLedger {
     double air = 0;
     double pins = 0;
     double contact = 0;
+    double cloth_contact = 0;  ///< by cloth on itself, inelastic
     double tears = 0;
 
-    double sum() const { return damping + bend_friction + air + pins + contact + tears; }
+    double sum() const {
+      return damping + bend_friction + air + pins + contact + cloth_contact + tears;
+    }
   };
 
   /// model  outlives the ledger; its pins and colliders may move as their motions say, and tears
@@ -35,7 +39,10 @@ class EnergyLedger {
   EnergyLedger(const ClothModel& model, const State& state);
 
   /// time_end  of the step [s];  step  its length [s], positive.
-  void record(const State& begin, const State& end, double time_end, double step);
+  /// on_cloth  for each vertex whether cloth pressed it in the step, whatever else did; empty where
+  ///           none did
+  void record(const State& begin, const State& end, double time_end, double step,
+              std::span<const char> on_cloth = {});
 
   /// The model has become that of torn cloth; what its threads no longer store is work of the tear.
   /// state  that of the last record or of the start, on the present vertices
@@ -66,7 +73,10 @@ class EnergyLedger {
   void exchange_friction(const State& begin);
   void evaluate(const State& state, double time, Loads& loads);
   Vec3 missing_impulse(VertexId vertex, const State& begin, const State& end, double step) const;
-  void record_contact(const State& begin, const State& end, double time_end, double step);
+  void record_contact(const State& begin, const State& end, double time_end, double step,
+                      std::span<const char> on_cloth);
+  void record_cloth_contact(const State& begin, const State& end, double step,
+                            std::span<const char> on_cloth);
 
   const ClothModel& model_;
   std::optional<AirDrag> air_;
