@@ -137,21 +137,23 @@ RunSummary run_to_end(Simulation& simulation, Watchers& watchers) {
   return summary;
 }
 
-Json drift_json(const EnergyLedger& ledger) {
+Json drift_json(const EnergyLedger& ledger, bool meets_itself) {
   const EnergyLedger::Works& works = ledger.works();
   const EnergyParts& parts = ledger.parts();
-  return {{"drift_j", ledger.drift()},
-          {"share_of_largest_kinetic_energy", ledger.relative_drift()},
-          {"energy_j", parts.sum()},
-          {"kinetic_j", parts.kinetic},
-          {"elastic_j", parts.elastic},
-          {"gravity_j", parts.gravity},
-          {"work_of_damping_j", works.damping},
-          {"work_of_inner_friction_j", works.bend_friction},
-          {"work_of_air_j", works.air},
-          {"work_of_pins_j", works.pins},
-          {"work_of_contact_j", works.contact},
-          {"work_of_tears_j", works.tears}};
+  Json json = {{"drift_j", ledger.drift()},
+               {"share_of_largest_kinetic_energy", ledger.relative_drift()},
+               {"energy_j", parts.sum()},
+               {"kinetic_j", parts.kinetic},
+               {"elastic_j", parts.elastic},
+               {"gravity_j", parts.gravity},
+               {"work_of_damping_j", works.damping},
+               {"work_of_inner_friction_j", works.bend_friction},
+               {"work_of_air_j", works.air},
+               {"work_of_pins_j", works.pins},
+               {"work_of_contact_j", works.contact},
+               {"work_of_tears_j", works.tears}};
+  if (meets_itself) json["work_of_cloth_contact_j"] = works.cloth_contact;
+  return json;
 }
 
 Json metrics_json(const Simulation& simulation, const RunSummary& summary, Watchers& watchers) {
@@ -211,7 +213,8 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary, Watch
   if (const auto contact = simulation.stepper().first_contact()) json["first_contact_s"] = *contact;
   if (const ClothContact* contact = simulation.stepper().cloth_contact())
     json["cloth_contact"] = json_cloth_contact(*contact);
-  if (watchers.ledger) json["energy"] = drift_json(watchers.ledger->account());
+  if (watchers.ledger)
+    json["energy"] = drift_json(watchers.ledger->account(), model.self_contact.has_value());
   json["core"] = core_version();
   return json;
 }

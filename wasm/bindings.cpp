@@ -274,8 +274,8 @@ class Simulation {
     return view_of(reference_->distances());
   }
   /// Time [s]; energy of motion, elastic, and by height above that at the start of the account;
-  /// works of damping (with inner friction), air, contact, pins and tears; drift; energy of motion
-  /// and elastic at the start [J]. Empty without an account.
+  /// works of damping (with inner friction), air, contact (with cloth's own), pins and tears;
+  /// drift; energy of motion and elastic at the start [J]. Empty without an account.
   val energies() {
     if (!ledger_) return view_of(kNoDoubles);
     const pleat::EnergyLedger& account = ledger_->account();
@@ -288,7 +288,7 @@ class Simulation {
                  now.gravity - first.gravity,
                  works.damping + works.bend_friction,
                  works.air,
-                 works.contact,
+                 works.contact + works.cloth_contact,
                  works.pins,
                  works.tears,
                  account.drift(),

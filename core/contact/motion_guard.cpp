@@ -86,20 +86,24 @@ void Movers::note(VertexId vertex) {
   moved_.push_back(vertex);
 }
 
-void Movers::move(VertexId vertex, const Vec3& way, Positions& places) {
+void Movers::shift_with_parents(VertexId vertex, const Vec3& way, Positions& places) const {
   const auto& [a, b] = parents_[vertex];
-  for (const VertexId v : {a, b}) {
-    places.col(v) += way;
-    note(v);
-    if (a == b) break;
-  }
-  if (children_.empty()) return;
+  places.col(a) += way;
+  if (a != b) places.col(b) += way;
   for (const VertexId v : {a, b})
     for (const VertexId child : children_[v]) {
       const auto& [c, d] = parents_[child];
       places.col(child) = (places.col(c) + places.col(d)) / 2;
-      note(child);
     }
+}
+
+void Movers::move(VertexId vertex, const Vec3& way, Positions& places) {
+  shift(vertex, way, places);
+  for (const VertexId v : parents_[vertex]) {
+    note(v);
+    if (children_.empty()) continue;
+    for (const VertexId child : children_[v]) note(child);
+  }
 }
 
 void Movers::clear_moved() {

@@ -22,12 +22,20 @@ class Movers {
   const std::array<VertexId, 2>& carriers(VertexId vertex) const { return parents_[vertex]; }
   /// Moves a vertex; of one that hangs both parents, as far.
   void move(VertexId vertex, const Vec3& way, Positions& places);
+  /// The same, and does not note it as moved. Runs for every pair that presses, hence inline.
+  void shift(VertexId vertex, const Vec3& way, Positions& places) const {
+    if (children_.empty())
+      places.col(vertex) += way;
+    else
+      shift_with_parents(vertex, way, places);
+  }
   /// Vertices moved since the last `clear_moved`, each once, those that hang too.
   std::span<const VertexId> moved() const { return moved_; }
   void clear_moved();
 
  private:
   void note(VertexId vertex);
+  void shift_with_parents(VertexId vertex, const Vec3& way, Positions& places) const;
 
   Eigen::VectorXd masses_, inverse_masses_;
   std::vector<std::array<VertexId, 2>> parents_;  // itself twice unless it hangs

@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
-
-#include "core/contact/closest_points.h"
 
 namespace pleat {
 namespace {
@@ -15,133 +11,134 @@ constexpr int kMaxSweeps = 20;
 constexpr double kTolerance = 1e-3;
 /// Share of what a gap lacks that a substep gives back without velocity.
 constexpr double kParting = 0.2;
-/// Edges more parallel than this do not push: their ends do.
-constexpr double kLeastAngle = 0.05;
 
-bool pushes(const SurfacePair& pair, const Positions& x) {
-  if (pair.kind == SurfacePair::Kind::vertex_face) return true;
-  const Vec3 a = x.col(pair.vertices[1]) - x.col(pair.vertices[0]);
-  const Vec3 b = x.col(pair.vertices[3]) - x.col(pair.vertices[2]);
-  return a.cross(b).squaredNorm() > kLeastAngle * kLeastAngle * a.squaredNorm() * b.squaredNorm();
-}
-
-/// Least gap along a normal, of all vertices.
-double least_gap(const SurfacePair& pair, const Vec3& n, const Positions& x) {
-  double least = std::numeric_limits<double>::infinity();
-  for (int a = 0; a < pair.n_first(); ++a)
-    for (int b = pair.n_first(); b < 4; ++b)
-      least = std::min(least, n.dot(x.col(pair.vertices[static_cast<std::size_t>(b)]) -
-                                    x.col(pair.vertices[static_cast<std::size_t>(a)])));
-  return least;
-}
-
-/// Second side's point less the first's.
-Vec3 difference(const SurfacePair& pair, const std::array<double, 4>& weights, const Positions& x) {
-  const Vec3 origin = x.col(pair.vertices[0]);
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t k = 1; k < 4; ++k) sum += weights[k] * (x.col(pair.vertices[k]) - origin);
-  return sum;
-}
+Vec3 across(const Vec3& vector, const Vec3& normal) { return vector - normal.dot(vector) * normal; }
 
 }  // namespace
 
-void PairResponse::collect(const Positions& begins, const Positions& ends) {
+Vec3 PairResponse::Pressing::difference(const Positions& places) const {
+  // Weights sum to zero: differences from one vertex lose no digits far off.
+  const Vec3 origin = places.col(vertices[0]);
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 1; k < 4; ++k) sum += weights[k] * (places.col(vertices[k]) - origin);
+  return sum;
+}
+
+void PairResponse::Pressing::set_rub(const Vec3& wanted, double friction) {
+  const double most = friction * push;
+  const double squared = wanted.squaredNorm();
+  slips = !(squared < most * most);
+  rub = squared > most * most ? Vec3(most / std::sqrt(squared) * wanted) : wanted;
+}
+
+PairResponse::Pressing PairResponse::pressing(const WatchedPair& pair, const PairContact& contact,
+                                              const Positions& begins, double h) const {
+  Pressing found(contact);
+  found.vertices = pair.sides.vertices;
+  double softness = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    found.softnesses[k] = contact.weights[k] * movers_.inverse_mass(found.vertices[k]);
+    softness += contact.weights[k] * found.softnesses[k];
+  }
+  found.resistance = softness > 0 ? 1 / softness : 0;
+  found.rest_gap = pair.gap;
+  found.begin = found.difference(begins) - pair.slip;
+  take_force(pair, h, found);
+  return found;
+}
+
+// The normal has turned since: what would pull now is none, and friction keeps its bound.
+void PairResponse::take_force(const WatchedPair& pair, double h, Pressing& contact) const {
+  contact.push = std::max(0.0, h * h * contact.normal.dot(pair.force));
+  contact.set_rub(h * h * across(pair.force, contact.normal), friction_);
+}
+
+void PairResponse::collect(const Positions& begins, const Positions& ends, double h) {
   contacts_.clear();
   const std::span<WatchedPair> pairs = pairs_.pairs();
   for (std::size_t p = 0; p < pairs.size(); ++p) {
-    WatchedPair& pair = pairs[p];
-    const double old_push = std::exchange(pair.push, 0);
-    if (old_push == 0 && least_gap(pair.sides, pair.normal, ends) >= pair.gap) continue;
-    if (!pushes(pair.sides, begins)) continue;
-    const SurfacePair& sides = pair.sides;
-    const ClosestPoints closest =
-        closest_points(pair_differences(sides, begins), sides.n_differences());
-    const double gap = closest.difference.norm();
-    if (!(gap > 0)) continue;
-    Contact contact;
-    contact.pair = static_cast<int>(p);
-    contact.normal = closest.difference / gap;
-    contact.weights = closest.weights;
-    double softness = 0;
-    for (int k = 0; k < 4; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      if (k < sides.n_first()) contact.weights[at] = -contact.weights[at];
-      softness +=
-          contact.weights[at] * contact.weights[at] * movers_.inverse_mass(sides.vertices[at]);
-    }
-    if (softness == 0) continue;
-    contact.resistance = 1 / softness;
-    contact.wanted = std::min(pair.gap, gap);
-    contact.push = old_push;
-    contacts_.push_back(contact);
+    const WatchedPair& pair = pairs[p];
+    const bool pressed = pair.is_solved || !pair.force.isZero(0);
+    if (!pressed && least_gap(pair.sides, pair.normal, ends) >= pair.gap) continue;
+    const auto found = pair_contact(pair, static_cast<int>(p), begins);
+    if (!found) continue;
+    const Pressing contact = pressing(pair, *found, begins, h);
+    if (contact.resistance > 0) contacts_.push_back(contact);
   }
 }
 
-void PairResponse::pull(const Contact& contact, const Vec3& impulse, Positions& ends) {
-  const SurfacePair& sides = pairs_.pairs()[static_cast<std::size_t>(contact.pair)].sides;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const double factor = contact.weights[k] * movers_.inverse_mass(sides.vertices[k]);
-    if (factor != 0) movers_.move(sides.vertices[k], factor * impulse, ends);
-  }
+void PairResponse::pull(const Pressing& contact, const Vec3& impulse, Positions& ends) const {
+  for (std::size_t k = 0; k < 4; ++k)
+    if (contact.softnesses[k] != 0)
+      movers_.shift(contact.vertices[k], contact.softnesses[k] * impulse, ends);
 }
 
-double PairResponse::solve_once(Contact& contact, const Positions& begins, Positions& ends) {
-  const WatchedPair& pair = pairs_.pairs()[static_cast<std::size_t>(contact.pair)];
-  const Vec3 apart = difference(pair.sides, contact.weights, ends);
+double PairResponse::solve_once(Pressing& contact, Positions& ends) const {
+  const Vec3 apart = contact.difference(ends);
   const double lacking = contact.wanted - contact.normal.dot(apart);
   const double push = std::max(0.0, contact.push + contact.resistance * lacking);
-  const double change = push - contact.push;
+  if (push == 0 && contact.push == 0) return 0;
+  Vec3 impulse = (push - contact.push) * contact.normal;
   contact.push = push;
-  Vec3 impulse = change * contact.normal;
   if (friction_ > 0) {
-    const Vec3 way = apart - difference(pair.sides, contact.weights, begins) + pair.slip;
-    const Vec3 across = way - contact.normal.dot(way) * contact.normal;
-    Vec3 rub = contact.rub - contact.resistance * across;
-    const double most = friction_ * push;
-    const double length = rub.norm();
-    if (length > most) rub *= most / length;
-    impulse += rub - contact.rub;
-    contact.rub = rub;
+    const Vec3 before = contact.rub;
+    const Vec3 way = across(apart - contact.begin, contact.normal);
+    contact.set_rub(before - contact.resistance * way, friction_);
+    impulse += contact.rub - before;
   }
-  if (impulse.squaredNorm() == 0) return 0;
+  if (impulse.isZero(0)) return 0;
   pull(contact, impulse, ends);
-  return impulse.norm() / (contact.resistance * pair.gap);
+  return impulse.norm() / (contact.resistance * contact.rest_gap);
 }
 
-void PairResponse::start(const Positions& begins, Positions& ends) {
-  collect(begins, ends);
-  for (const Contact& contact : contacts_)
-    if (contact.push > 0) pull(contact, contact.push * contact.normal, ends);
+void PairResponse::start(const Positions& begins, Positions& ends, double h) {
+  collect(begins, ends, h);
+  for (const Pressing& contact : contacts_) {
+    const WatchedPair& pair = pairs_.pairs()[static_cast<std::size_t>(contact.pair)];
+    // A force that a solve knew is in the ends, as all threads answered to it.
+    if (!pair.is_solved && contact.push > 0)
+      pull(contact, contact.push * contact.normal + contact.rub, ends);
+  }
 }
 
-void PairResponse::push(const Positions& begins, Positions& ends) {
+// There and back: what one end of a pile gives the other feels in the same sweep or the next.
+void PairResponse::push(Positions& ends) {
   for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
     double most = 0;
-    for (Contact& contact : contacts_) most = std::max(most, solve_once(contact, begins, ends));
+    if (sweep % 2 == 0)
+      for (auto contact = contacts_.begin(); contact != contacts_.end(); ++contact)
+        most = std::max(most, solve_once(*contact, ends));
+    else
+      for (auto contact = contacts_.rbegin(); contact != contacts_.rend(); ++contact)
+        most = std::max(most, solve_once(*contact, ends));
     if (most < kTolerance) break;
   }
 }
 
-void PairResponse::finish(const Positions& begins, const Positions& ends) {
+void PairResponse::finish(const Positions& ends, double h) {
   n_active_ = 0;
-  for (const Contact& contact : contacts_) {
+  for (WatchedPair& pair : pairs_.pairs()) {
+    if (!pair.is_solved) pair.force_before = pair.force.norm();
+    pair.force.setZero();
+    pair.is_solved = pair.sticks = false;
+    pair.slip.setZero();
+  }
+  for (const Pressing& contact : contacts_) {
+    if (contact.push == 0) continue;
+    ++n_active_;
     WatchedPair& pair = pairs_.pairs()[static_cast<std::size_t>(contact.pair)];
-    pair.push = contact.push;
-    if (contact.push > 0) ++n_active_;
-    const Vec3 way = difference(pair.sides, contact.weights, ends) -
-                     difference(pair.sides, contact.weights, begins) + pair.slip;
-    const bool holds = contact.push > 0 && contact.rub.norm() < friction_ * contact.push;
-    pair.slip = holds ? Vec3(way - contact.normal.dot(way) * contact.normal) : Vec3(0, 0, 0);
+    pair.force = (contact.push * contact.normal + contact.rub) / (h * h);
+    pair.sticks = !contact.slips;
+    if (pair.sticks) pair.slip = across(contact.difference(ends) - contact.begin, contact.normal);
   }
 }
 
 bool PairResponse::part(Positions& ends) {
   bool any = false;
-  for (const Contact& contact : contacts_) {
-    const WatchedPair& pair = pairs_.pairs()[static_cast<std::size_t>(contact.pair)];
-    if (contact.wanted >= pair.gap) continue;
-    const double gap = contact.normal.dot(difference(pair.sides, contact.weights, ends));
-    const double wanted = contact.wanted + kParting * (pair.gap - contact.wanted);
+  for (const Pressing& contact : contacts_) {
+    if (contact.wanted >= contact.rest_gap) continue;
+    const double gap = contact.normal.dot(contact.difference(ends));
+    const double wanted = contact.wanted + kParting * (contact.rest_gap - contact.wanted);
     if (gap >= wanted) continue;
     pull(contact, contact.resistance * (wanted - gap) * contact.normal, ends);
     any = true;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/contact/motion_guard.h"
+#include "core/contact/pair_contact.h"
 #include "core/contact/watched_pairs.h"
 
 namespace pleat {
@@ -16,13 +17,14 @@ class PairResponse {
   PairResponse(WatchedPairs& pairs, Movers& movers, double friction)
       : pairs_(pairs), movers_(movers), friction_(friction) {}
 
-  /// Finds what presses in a substep with these ways [m], and starts with the last impulses.
-  void start(const Positions& begins, Positions& ends);
+  /// Finds what presses in a substep of h [s] with these ways [m], and starts with the last forces,
+  /// which act on those ends now that no solve knew of.
+  void start(const Positions& begins, Positions& ends, double h);
   /// Changes the ends of ways, and velocities with them, until sides keep their gaps. Call it again
   /// when something else has moved them.
-  void push(const Positions& begins, Positions& ends);
-  /// Ends a substep: what pushed is remembered.
-  void finish(const Positions& begins, const Positions& ends);
+  void push(Positions& ends);
+  /// Ends a substep of h [s]: what pushed is remembered.
+  void finish(const Positions& ends, double h);
   /// Moves sides that were too near from the start some way apart, velocities as they are. True
   /// where there were any.
   bool part(Positions& ends);
@@ -31,24 +33,35 @@ class PairResponse {
   int n_active() const { return n_active_; }
 
  private:
-  struct Contact {
-    int pair;
-    std::array<double, 4> weights;  // one of each vertex: negative on the first side
-    Vec3 normal;
-    double resistance;  // effective mass [kg]
-    double wanted;      // least end of the gap [m]
-    double push = 0;    // [kg m]
-    Vec3 rub{0, 0, 0};  // friction across the normal [kg m]
+  struct Pressing : PairContact {
+    explicit Pressing(const PairContact& contact) : PairContact(contact) {}
+    std::array<VertexId, 4> vertices;
+    std::array<double, 4> softnesses{};  // weights over masses [1/kg]
+    double resistance = 0;               // effective mass [kg]
+    double rest_gap = 0;                 // [m]
+    Vec3 begin{0, 0, 0};  // difference when the substep starts, less what friction is to undo [m]
+    double push = 0;      // impulse along the normal times the substep [kg m]
+    Vec3 rub{0, 0, 0};    // friction across it [kg m]
+    bool slips = false;   // friction is all that there can be
+
+    /// Sets the friction, as far as Coulomb's cone goes.
+    void set_rub(const Vec3& wanted, double friction);
+
+    /// The second side's point less the first's.
+    Vec3 difference(const Positions& places) const;
   };
 
-  void collect(const Positions& begins, const Positions& ends);
-  void pull(const Contact& contact, const Vec3& impulse, Positions& ends);
-  double solve_once(Contact& contact, const Positions& begins, Positions& ends);
+  Pressing pressing(const WatchedPair& pair, const PairContact& contact, const Positions& begins,
+                    double h) const;
+  void take_force(const WatchedPair& pair, double h, Pressing& contact) const;
+  void collect(const Positions& begins, const Positions& ends, double h);
+  void pull(const Pressing& contact, const Vec3& impulse, Positions& ends) const;
+  double solve_once(Pressing& contact, Positions& ends) const;
 
   WatchedPairs& pairs_;
   Movers& movers_;
   double friction_;
-  std::vector<Contact> contacts_;
+  std::vector<Pressing> contacts_;
   int n_active_ = 0;
 };
 

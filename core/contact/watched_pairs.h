@@ -14,8 +14,11 @@ struct WatchedPair {
   SurfacePair sides;
   Vec3 normal{0, 0, 0};  ///< direction from the first side to the second, tried first: zero or unit
   double gap = 0;        ///< gap that the sides rest at [m]
-  double push = 0;       ///< impulse of the last substep times its length [kg m]
-  Vec3 slip{0, 0, 0};    ///< way that friction has still to undo [m]
+  Vec3 force{0, 0, 0};   ///< force of the first side on the second in the last substep [N]
+  double force_before = 0;  ///< size of the force in the substep before that [N]
+  Vec3 slip{0, 0, 0};       ///< way that friction has still to undo [m]
+  bool sticks = false;      ///< friction took all of the way across the normal
+  bool is_solved = false;   ///< the force acts in the solve of the substep already
 };
 
 /// Keeps a list of all pairs that may meet while each vertex stays in its corridor: the line that

@@ -10,10 +10,11 @@ ClothContact::ClothContact(ClothModel& model)
       movers_(model.masses, model.self_contact->hanging),
       response_(pairs_, movers_, model.self_contact->friction),
       guard_(pairs_, movers_) {
-  refresh();
+  begin_step();
 }
 
-void ClothContact::refresh() {
+void ClothContact::begin_step() {
+  is_pressed_.assign(static_cast<std::size_t>(model_.n_vertices()), 0);
   is_pinned_.assign(static_cast<std::size_t>(model_.n_vertices()), 0);
   for (const Pin& pin : model_.pins) is_pinned_[pin.vertex] = 1;
   movers_.prescribe(is_pinned_);
@@ -39,14 +40,23 @@ bool ClothContact::meet_solids(double h) {
 // Pairs push cloth into solids, and solids push it into cloth: each in turn.
 void ClothContact::press(double h) {
   constexpr int kMaxRounds = 3;
-  response_.start(begins_, ends_);
+  response_.start(begins_, ends_, h);
   for (int round = 0; round < kMaxRounds; ++round) {
-    response_.push(begins_, ends_);
+    response_.push(ends_);
     if (!meet_solids(h)) break;
   }
-  response_.finish(begins_, ends_);
+  response_.finish(ends_, h);
   pushed_ = ends_;
   if (response_.part(ends_)) parted_ = ends_ - pushed_;
+}
+
+void ClothContact::note_pressed() {
+  for (const WatchedPair& pair : pairs_.pairs()) {
+    if (pair.force.isZero(0)) continue;
+    for (const VertexId v : pair.sides.vertices)
+      for (const VertexId carrier : movers_.carriers(v)) is_pressed_[carrier] = 1;
+  }
+  for (const Change& change : changes_) is_pressed_[change.vertex] = 1;
 }
 
 std::span<const ClothContact::Change> ClothContact::hold(double begin, double end) {
@@ -68,6 +78,7 @@ std::span<const ClothContact::Change> ClothContact::hold(double begin, double en
   for (int i = 0; i < model_.n_vertices(); ++i)
     if (ends_.col(i) != proposed_.col(i))
       changes_.push_back({VertexId(i), (ends_.col(i) - proposed_.col(i) - parted_.col(i)) / h});
+  note_pressed();
   return changes_;
 }
 

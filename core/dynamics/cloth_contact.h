@@ -19,8 +19,8 @@ class ClothContact {
   /// model  outlives it; with self_contact
   explicit ClothContact(ClothModel& model);
 
-  /// Takes over pins that changed in number or vertex.
-  void refresh();
+  /// Starts a step: takes over pins that changed in number or vertex.
+  void begin_step();
 
   /// Places where a substep starts, to be filled before it [m].
   Positions& begins() { return begins_; }
@@ -35,6 +35,17 @@ class ClothContact {
   /// Corrects the ends of a substep from `begin` to `end` [s]. Returns what changed; valid until
   /// the next call. Solids of the model are placed.
   std::span<const Change> hold(double begin, double end);
+
+  /// Pairs that may meet, as they were listed last, with what is known of them.
+  std::span<WatchedPair> pairs() { return pairs_.pairs(); }
+  std::span<const WatchedPair> pairs() const { return pairs_.pairs(); }
+  const Movers& movers() const { return movers_; }
+  bool is_pinned(VertexId vertex) const { return is_pinned_[vertex] != 0; }
+  double friction() const { return model_.self_contact->friction; }
+
+  /// Says for each vertex whether cloth pressed it, or the guard held it back, since the step
+  /// began.
+  std::span<const char> pressed() const { return is_pressed_; }
 
   /// Sums over all substeps since this was made.
   struct Sums {
@@ -57,6 +68,7 @@ class ClothContact {
 
  private:
   void press(double h);
+  void note_pressed();
   bool meet_solids(double h);
   double n_ways() const {
     return static_cast<double>(std::max<std::int64_t>(1, sums_.n_substeps)) * n_vertices();
@@ -67,7 +79,7 @@ class ClothContact {
   Movers movers_;
   PairResponse response_;
   MotionGuard guard_;
-  std::vector<char> is_pinned_;
+  std::vector<char> is_pinned_, is_pressed_;
   Positions begins_, ends_, proposed_, pushed_, parted_;
   Sums sums_;
   std::vector<Change> changes_;

@@ -61,7 +61,7 @@ void Stepper::change(State& state, VertexId vertex, const Vec3& place, const Vec
 }
 
 SolveReport Stepper::advance(State& state, double time) {
-  if (cloth_contact_) cloth_contact_->refresh();
+  if (cloth_contact_) cloth_contact_->begin_step();
   PLEAT_CHECK(state.positions.cols() == model_.n_vertices() &&
                   state.velocities.cols() == model_.n_vertices(),
               "a state has the model's vertices");

@@ -115,6 +115,7 @@ class Stepper {
   ClothModel& model_;
   PartObserver* observer_ = nullptr;
   ContactMemory contact_memory_;
+  std::optional<ClothContact> cloth_contact_;  // models with self-contact only
   Positions positions_begin_;  // start of the substep, set by steppers that call correct
 
  private:
@@ -129,7 +130,6 @@ class Stepper {
   MethodOptions options_;
   int substeps_;
   std::optional<StrainLimitPass> strain_limit_;
-  std::optional<ClothContact> cloth_contact_;
   FirstContact first_contact_;
   State last_finite_;
   BendFriction::Kept last_friction_;  // state of friction inside the fabric, there

@@ -17,13 +17,21 @@ void for_each_pair(const ClothModel& model, const Join& join) {
 
 }  // namespace
 
-SystemMatrix::SystemMatrix(const ClothModel& model)
-    : model_(model), below_(static_cast<std::size_t>(model.n_vertices())) {
-  for_each_pair(model, [this](VertexId a, VertexId b) {
+SystemMatrix::SystemMatrix(const ClothModel& model) : model_(model) { join({}); }
+
+void SystemMatrix::join(std::span<const std::array<VertexId, 2>> joins) {
+  below_.assign(static_cast<std::size_t>(model_.n_vertices()), {});
+  slots_.clear();
+  hanging_blocks_.clear();
+  prescribed_.clear();
+  prescribed_blocks_.clear();
+  const auto note = [this](VertexId a, VertexId b) {
     below_[std::min(a.value, b.value)].push_back(a > b ? a : b);
-  });
-  if (!model.hanging.empty()) join_parents();
-  const int n = model.n_vertices();
+  };
+  for_each_pair(model_, note);
+  for (const auto& [a, b] : joins) note(a, b);
+  if (!model_.hanging.empty()) join_parents();
+  const int n = model_.n_vertices();
   std::vector<int> column_sizes;
   column_sizes.reserve(3 * static_cast<std::size_t>(n));
   for (std::vector<VertexId>& rows : below_) {
@@ -41,7 +49,7 @@ SystemMatrix::SystemMatrix(const ClothModel& model)
     }
   }
   matrix_.makeCompressed();
-  for_each_pair(model, [this](VertexId a, VertexId b) { slots_.push_back(slot(a, b)); });
+  for_each_pair(model_, [this](VertexId a, VertexId b) { slots_.push_back(slot(a, b)); });
   find_hanging_slots();
 }
 
@@ -94,6 +102,11 @@ SystemMatrix::Slot SystemMatrix::slot(VertexId a, VertexId b) const {
   const std::vector<VertexId>& rows = below_[column];
   const auto place = std::lower_bound(rows.begin(), rows.end(), row);
   return {row, column, static_cast<int>(place - rows.begin())};
+}
+
+bool SystemMatrix::joins(VertexId a, VertexId b) const {
+  const std::vector<VertexId>& rows = below_[std::min(a.value, b.value)];
+  return std::binary_search(rows.begin(), rows.end(), a > b ? a : b);
 }
 
 /// The three values of one column of a block lie side by side, behind the column's share of the

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "core/linalg/sparse.h"
@@ -15,6 +16,10 @@ class SystemMatrix {
  public:
   /// model  outlives the matrix and keeps its elements.
   explicit SystemMatrix(const ClothModel& model);
+
+  /// Makes the pattern anew, with a block between these vertices too, of which none hang. Values
+  /// are zero then, and prescribed vertices have to be chosen again.
+  void join(std::span<const std::array<VertexId, 2>> joins);
 
   void set_zero() { matrix_.coeffs().setZero(); }
   /// Takes the values of a matrix with the same pattern.
@@ -31,6 +36,10 @@ class SystemMatrix {
   double diagonal_along(VertexId vertex, const Vec3& direction) const;
   /// Adds a block to the diagonal.
   void add_diagonal(VertexId vertex, const Mat3& block);
+  /// True where there is a block between two vertices.
+  bool joins(VertexId a, VertexId b) const;
+  /// Adds a symmetric block between two vertices that it joins, either way round.
+  void add_between(VertexId a, VertexId b, const Mat3& block) { add_block(slot(a, b), block); }
 
   const SparseMatrix& lower() const { return matrix_; }
 

@@ -21,7 +21,9 @@ void RunLedger::record_step() {
     begin_.velocities = tearing.split(begin_.velocities, origins);
     account_.record_tear(begin_);
   }
-  account_.record(begin_, simulation_.state(), simulation_.time(), simulation_.scene().method.step);
+  const ClothContact* contact = simulation_.stepper().cloth_contact();
+  account_.record(begin_, simulation_.state(), simulation_.time(), simulation_.scene().method.step,
+                  contact != nullptr ? contact->pressed() : std::span<const char>());
   begin_ = simulation_.state();
   time_begin_ = simulation_.time();
 }

@@ -75,6 +75,29 @@ TEST_CASE("system_matrix: a second assembly leaves nothing of the first", "[mode
   CHECK((dense(matrix.lower()) - expected).norm() == 0);
 }
 
+TEST_CASE("system_matrix: vertices that it joins have a block between them", "[model]") {
+  const ClothModel model = mixed_model();
+  const VertexId a(2);
+  const VertexId b(model.n_vertices() - 1);
+  SystemMatrix matrix(model);
+  CHECK_FALSE(matrix.joins(a, b));
+  matrix.join(std::vector<std::array<VertexId, 2>>{{b, a}, {a, b}});
+  CHECK(matrix.joins(a, b));
+  CHECK(matrix.joins(b, a));
+  matrix.add_masses(2);
+  matrix.add_elasticity(moved_positions(model), 3, 5, ElementHessian::exact);
+  Mat3 block;
+  block << 4, 1, 2, 1, 5, 3, 2, 3, 6;
+  matrix.add_between(b, a, block);
+  Eigen::MatrixXd expected = expected_sum(model);
+  expected.block<3, 3>(3 * a, 3 * b) += block;
+  expected.block<3, 3>(3 * b, 3 * a) += block;
+  CHECK((dense(matrix.lower()) - expected).norm() < 1e-14 * expected.norm());
+  matrix.join({});
+  CHECK_FALSE(matrix.joins(a, b));
+  CHECK(matrix.lower().nonZeros() == SystemMatrix(model).lower().nonZeros());
+}
+
 TEST_CASE("system_matrix: prescribed vertices are eliminated as in a dense solve", "[model]") {
   const ClothModel model = mixed_model();
   const int n = model.n_vertices();

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/dynamics/implicit/contact_hold.h"
+#include "core/dynamics/implicit/pair_hold.h"
 #include "core/dynamics/implicit/velocity_solve.h"
 #include "core/dynamics/stepper.h"
 
@@ -32,16 +33,20 @@ class StepperImplicit : public Stepper {
   SolveReport substep(State& state, double time_end, double h) final;
 
  private:
+  void choose_pairs(const State& state, double time_end, double h);
+  void hold(const State& state, double h);
+  bool let_loose(const State& state, double h);
   void assemble(const State& state, double h);
   void add_air_resistance(double h);
   SolveReport solve(const State& state, double time_end, double h);
 
   const ClothModel* stiff_ = nullptr;
   std::optional<SystemMatrix> matrix_;
-  std::optional<ContactHold> hold_;  // models with contact only
+  std::optional<ContactHold> hold_;    // models with contact only
+  std::optional<PairHold> pair_hold_;  // models with self-contact only
   VelocitySolve solve_;
   Positions forces_;      // right-hand side, in [N s] once scaled by h
-  Positions velocities_;  // solved ones, before contact; models with contact only
+  Positions velocities_;  // solved ones, before contact; models with contact of either kind only
 };
 
 }  // namespace pleat

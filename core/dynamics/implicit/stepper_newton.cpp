@@ -64,7 +64,10 @@ StepperNewton::StepperNewton(ClothModel& model, const MethodOptions& options)
                      "from a saddle, got cg");
   if (is_at_rest() && model.pins.empty() && !model.gravity.isZero(0))
     throw InputError("/pins", "expected something held, as weight alone has no rest, got nothing");
-  if (model_.contact && options.rule == NewtonRule::backward_euler) hold_.emplace(model_);
+  if (options.rule == NewtonRule::backward_euler) {
+    if (model_.contact) hold_.emplace(model_);
+    if (cloth_contact_) pair_hold_.emplace(model_, *cloth_contact_);
+  }
   MethodOptions linear = options;
   linear.tolerance = kIterativeTolerance;
   solver_ = make_solver(linear, kMaxSolverIterations);
@@ -107,16 +110,31 @@ void StepperNewton::set_up(const State& state, double h) {
     loads_ += rate * state.velocities * model_.masses.asDiagonal();
   }
   base_.coeffs() = matrix_.lower().coeffs();
-  if (hold_) hold(state, h);
+  if (hold_ || pair_hold_) hold(state, h);
 }
 
 void StepperNewton::hold(const State& state, double h) {
+  const double mass_unit = interval_ * interval_;
   matrix_.add_elasticity(positions_begin_, 1, 0, ElementHessian::projected);
-  hold_->set_resistances(matrix_, interval_ * interval_);
-  hold_->choose(contact_memory_, state, h, &matrix_, interval_ * interval_);
+  if (hold_) {
+    hold_->set_resistances(matrix_, mass_unit);
+    hold_->choose(contact_memory_, state, h, &matrix_, mass_unit);
+  }
+  if (pair_hold_) pair_hold_->set_resistances(matrix_, mass_unit);
   matrix_.set_values(base_);
-  add_holds(hold_->held(), 1);
+  if (hold_) add_holds(hold_->held(), 1);
+  if (pair_hold_) add_pairs(pair_hold_->held(), 1);
   base_.coeffs() = matrix_.lower().coeffs();
+}
+
+void StepperNewton::choose_pairs(const State& state, double time_end, double h) {
+  const PartScope scope(observer_, Part::cloth_contact);
+  pair_hold_->choose(state, time_end, h);
+  if (pair_hold_->fits(matrix_)) return;
+  matrix_.join(pair_hold_->joins(state.positions));
+  solver_->analyze(matrix_.lower());
+  base_ = matrix_.lower();
+  refresh();
 }
 
 /// Adds what holds these vertices to the matrix and the loads, or with -1 takes it out.
@@ -127,13 +145,24 @@ void StepperNewton::add_holds(std::span<const ContactHold::Held> holds, double s
   }
 }
 
-/// Lets those go that a solid would pull or rub too much; false where there are none.
+/// The counterpart of pairs, of which positions are unknown where a linearised step has velocities.
+void StepperNewton::add_pairs(std::span<const PairHold::Held> pairs, double sign) {
+  product_.setZero();
+  const PairHold::Units units = {sign / (interval_ * interval_), sign / interval_};
+  PairHold::add(pairs, product_, interval_, units, matrix_, loads_);
+}
+
+/// Lets those go that a solid or cloth would pull or rub too much; false where there are none.
 bool StepperNewton::let_loose() {
   velocities_ = (positions_ - positions_begin_) / interval_;
-  const auto freed = hold_->let_loose(contact_memory_, velocities_, interval_);
-  if (freed.empty()) return false;
+  std::span<const ContactHold::Held> freed;
+  std::span<const PairHold::Held> lost;
+  if (hold_) freed = hold_->let_loose(contact_memory_, velocities_, interval_);
+  if (pair_hold_) lost = pair_hold_->let_loose(velocities_, interval_);
+  if (freed.empty() && lost.empty()) return false;
   matrix_.set_values(base_);
   add_holds(freed, -1);
+  add_pairs(lost, -1);
   base_.coeffs() = matrix_.lower().coeffs();
   return true;
 }
@@ -342,7 +371,8 @@ void StepperNewton::push_off(int attempt) {
 /// Finds by coarse minima which holds stay; the number of iterations.
 int StepperNewton::find_holds() {
   int n_iterations = 0;
-  if (!hold_ || hold_->held().empty()) return n_iterations;
+  const bool any = (hold_ && !hold_->held().empty()) || (pair_hold_ && !pair_hold_->held().empty());
+  if (!any) return n_iterations;
   for (int n = 0; n < ContactHold::kMaxRepeats; ++n) {
     const SolveReport report = minimise(kHoldTolerance);
     n_iterations += report.iterations;
@@ -393,16 +423,16 @@ SolveReport StepperNewton::substep(State& state, double time_end, double h) {
                                             ? BendFriction::Knee::in_middle
                                             : BendFriction::Knee::exact);
   if (model_.air && options().rule == NewtonRule::midpoint) model_.air->set_time(time_end - h / 2);
+  if (pair_hold_) choose_pairs(state, time_end, h);
   set_up(state, h);
   place_first_guess(state, time_end);
   const int n_iterations = find_holds();
   SolveReport report = minimise(options().tolerance);
   report.iterations += n_iterations;
   if (report.ends_run()) return report;
-  if (hold_) {
-    velocities_ = (positions_ - positions_begin_) / interval_;
-    hold_->add_forces(velocities_, interval_, contact_memory_.forces());
-  }
+  if (hold_ || pair_hold_) velocities_ = (positions_ - positions_begin_) / interval_;
+  if (hold_) hold_->add_forces(velocities_, interval_, contact_memory_.forces());
+  if (pair_hold_) pair_hold_->remember(velocities_, interval_, *cloth_contact_);
   switch (options().rule) {
     case NewtonRule::backward_euler:
       state.velocities = (positions_ - positions_begin_) / interval_;

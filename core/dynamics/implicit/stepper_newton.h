@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/dynamics/implicit/contact_hold.h"
+#include "core/dynamics/implicit/pair_hold.h"
 #include "core/dynamics/stepper.h"
 #include "core/model/system_matrix.h"
 
@@ -39,6 +40,8 @@ class StepperNewton final : public Stepper {
   void set_up(const State& state, double h);
   void hold(const State& state, double h);
   void add_holds(std::span<const ContactHold::Held> holds, double sign);
+  void choose_pairs(const State& state, double time_end, double h);
+  void add_pairs(std::span<const PairHold::Held> pairs, double sign);
   bool let_loose();
   void place_first_guess(const State& state, double time_end);
   int find_holds();
@@ -59,7 +62,8 @@ class StepperNewton final : public Stepper {
   bool is_at_rest() const { return options().rule == NewtonRule::equilibrium; }
 
   SystemMatrix matrix_;
-  std::optional<ContactHold> hold_;  // backward Euler of models with contact only
+  std::optional<ContactHold> hold_;    // backward Euler of models with contact only
+  std::optional<PairHold> pair_hold_;  // backward Euler of models with self-contact only
   std::unique_ptr<LinearSolver> solver_;
   SparseMatrix base_;               // M/k^2 + C/k, fixed during a substep [N/m]
   double interval_ = 0;             // k [s]
