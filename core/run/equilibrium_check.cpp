@@ -182,6 +182,20 @@ void EquilibriumCheck::press_from_both_sides() {
   }
 }
 
+// What gravity would bring onto cloth within the step counts as near.
+void EquilibriumCheck::choose_pairs(const State& state, double time,
+                                    const ClothContact* cloth_contact) {
+  pairs_.reset();
+  if (cloth_contact == nullptr) return;
+  pairs_.emplace(model_, *cloth_contact);
+  const Positions fall = kEquilibriumStep * model_.gravity.replicate(1, model_.n_vertices());
+  pairs_->choose({state.positions, fall}, time, kEquilibriumStep);
+  if (pairs_->fits(matrix_)) return;
+  matrix_.join(pairs_->joins(state.positions));
+  solver_->analyze(matrix_.lower());
+  work_ += kAnalysisCost;
+}
+
 // Solved again for what is left until that is little of the weight: stiff threads make a relative
 // residual of theirs more than the whole weight.
 bool EquilibriumCheck::solve() {
@@ -198,10 +212,12 @@ bool EquilibriumCheck::solve() {
     matrix_.add_diagonal(contact.vertex, resistance);
     force += resistance * contact.target;
   }
+  moves_.setZero();
+  if (pairs_)
+    PairHold::add(pairs_->held(), moves_, kEquilibriumStep, {1, kEquilibriumStep}, matrix_, rhs_);
   matrix_.prescribe(Positions::Zero(3, static_cast<Eigen::Index>(model_.pins.size())), flat(rhs_));
   work_ += is_direct(kind_) ? kDirectCost : kFactorCost;
   if (!solver_->factorize(matrix_.lower()).ok()) return false;
-  moves_.setZero();
   const auto product = matrix_.lower().selfadjointView<Eigen::Lower>();
   const Positions whole = rhs_;
   for (int round = 0; round < kMaxCorrections; ++round) {
@@ -273,6 +289,12 @@ bool EquilibriumCheck::take_contact_forces() {
   return has_changed;
 }
 
+bool EquilibriumCheck::let_pairs_loose() {
+  if (!pairs_) return false;
+  correction_ = moves_ / kEquilibriumStep;
+  return !pairs_->let_loose(correction_, kEquilibriumStep).empty();
+}
+
 double EquilibriumCheck::share_of_moves() const {
   double sum = 0;
   for (int i = 0; i < model_.n_vertices(); ++i)
@@ -280,19 +302,23 @@ double EquilibriumCheck::share_of_moves() const {
   return sum / weight_;
 }
 
-std::optional<double> EquilibriumCheck::unbalanced_share(const State& state, double time) {
+std::optional<double> EquilibriumCheck::unbalanced_share(const State& state, double time,
+                                                         const ClothContact* cloth_contact) {
+  choose_pairs(state, time, cloth_contact);
   choose_free();
   if (!(weight_ > 0) || is_limited(state.positions)) return std::nullopt;
   set_forces(state, time);
   set_matrix(state);
   solver_->set_places(flat(state.positions));
+  if (pairs_) pairs_->set_resistances(matrix_, kFirmness);
   find_contacts(state, time);
   double share = 0;
   for (int round = 0; round < kMaxRounds; ++round) {
     const double before = share;
     if (!solve() && !solve_by_factor()) return std::nullopt;
     share = share_of_moves();
-    if (!take_contact_forces()) break;
+    const bool is_loose = let_pairs_loose();
+    if (!take_contact_forces() && !is_loose) break;
     const bool is_known = round > 0 && std::abs(share - before) <= kShareAccuracy;
     const bool is_far_off =
         round >= kRoundsOfNewContacts && share > kFarTooLarge && share >= kSlowestFall * before;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/dynamics/implicit/pair_hold.h"
 #include "core/linalg/linear_solver.h"
 #include "core/model/cloth_model.h"
 #include "core/model/state.h"
@@ -22,7 +23,8 @@ constexpr double kEquilibriumStep = 1.0 / 60;
 ///     (M + h^2 K) dx = h^2 (f + contact),  share = sum m |dx| / (M g h^2),
 ///
 /// f all forces of the model, K its stiffness. A share of 1 is cloth that nothing holds. Solids
-/// push and rub within Coulomb's cone, pins hold. Neither state nor model are changed.
+/// push and rub within Coulomb's cone, cloth does so at cloth, pins hold. Neither state nor model
+/// are changed.
 ///
 /// Source: docs/methods/plausibility.md.
 class EquilibriumCheck {
@@ -35,7 +37,9 @@ class EquilibriumCheck {
   ///
   /// state  moves as one, more or less; what its velocities change is air and dampers
   /// time   [s]
-  std::optional<double> unbalanced_share(const State& state, double time);
+  /// cloth_contact  what cloth that meets itself knows of its last substep; may be null
+  std::optional<double> unbalanced_share(const State& state, double time,
+                                         const ClothContact* cloth_contact = nullptr);
 
   /// Work so far for each vertex, in units of StepperType::substep_cost.
   double work() const { return work_; }
@@ -64,6 +68,7 @@ class EquilibriumCheck {
   void set_matrix(const State& state);
   void find_contacts(const State& state, double time);
   void press_from_both_sides();
+  void choose_pairs(const State& state, double time, const ClothContact* cloth_contact);
   void choose_free();
   double share_of_moves() const;
   void take_solver(SolverKind kind);
@@ -74,6 +79,7 @@ class EquilibriumCheck {
   void take_force(Contact& contact) const;
   /// Takes the contact forces from the moves; true where a hold has changed.
   bool take_contact_forces();
+  bool let_pairs_loose();
 
   const ClothModel& model_;
   SystemMatrix matrix_;
@@ -82,10 +88,11 @@ class EquilibriumCheck {
   std::unique_ptr<LinearSolver> solver_;
   std::optional<AirDrag> air_;
   std::vector<Contact> contacts_;
-  std::vector<char> is_free_;  // neither pinned nor hanging, for each vertex
-  double weight_ = 0;          // M g h^2 of the free vertices [kg m]
-  double least_residual_ = 0;  // least one that is worth solving for [kg m]
-  Positions forces_;           // h^2 f [kg m]
+  std::optional<PairHold> pairs_;  // null where cloth does not meet itself
+  std::vector<char> is_free_;      // neither pinned nor hanging, for each vertex
+  double weight_ = 0;              // M g h^2 of the free vertices [kg m]
+  double least_residual_ = 0;      // least one that is worth solving for [kg m]
+  Positions forces_;               // h^2 f [kg m]
   Positions rhs_;
   Positions moves_;       // dx [m]
   Positions correction_;  // [m]

@@ -79,13 +79,11 @@ bool RestWatch::is_at_rest(const Simulation& simulation) const {
 // Cloth that trembles at a frequency w with a speed v is out of balance by v w, of which a step of
 // h sees v w/(1 + (h w)^2), at most v/(2 h).
 std::optional<RestWatch::Look> RestWatch::look(const Simulation& simulation) {
-  // Cloth's forces on itself are among no forces of the model.
-  const ClothContact* contact = simulation.stepper().cloth_contact();
-  if (contact != nullptr && contact->n_touching() > 0) return std::nullopt;
   if (std::exchange(topology_, simulation.topology()) != topology_) check_.reset();
   const double before = check_ ? check_->work() : 0;
   if (!check_) check_.emplace(simulation.model());
-  const auto share = check_->unbalanced_share(simulation.state(), simulation.time());
+  const auto share = check_->unbalanced_share(simulation.state(), simulation.time(),
+                                              simulation.stepper().cloth_contact());
   work_of_next_look_ = check_->work() - before;
   work_ += work_of_next_look_;
   if (!share) return std::nullopt;
