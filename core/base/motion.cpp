@@ -1,5 +1,6 @@
 #include "core/base/motion.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -36,16 +37,25 @@ Vec3 displacement(const Motion& motion, double time) {
       return std::sin(kTwoPi * motion.frequency * std::max(0.0, time - motion.time_begin)) *
              motion.offset;
     case Motion::Kind::hold:
+    case Motion::Kind::turn:
     case Motion::Kind::follow:
       break;
   }
   return Vec3::Zero();
 }
 
+/// The line's points stay: R c + (c - R c) = c.
+Pose turned(const Motion& motion, double time) {
+  const double duration = std::clamp(time, motion.time_begin, motion.time_end) - motion.time_begin;
+  const Mat3 rotation = Eigen::AngleAxisd(motion.rate * duration, motion.axis).toRotationMatrix();
+  return {rotation, motion.centre - rotation * motion.centre};
+}
+
 }  // namespace
 
 Pose Motion::pose(double time) const {
   if (kind == Kind::follow) return frame->pose(time);
+  if (kind == Kind::turn) return turned(*this, time);
   return {Mat3::Identity(), displacement(*this, time)};
 }
 
@@ -66,6 +76,9 @@ Vec3 Motion::velocity(const Vec3& place, double time) const {
       const double omega = kTwoPi * frequency;
       return omega * std::cos(omega * (time - time_begin)) * offset;
     }
+    case Kind::turn:
+      if (!is_under_way(*this, time)) return Vec3::Zero();
+      return rate * axis.cross(turned(*this, time) * place - centre);
     case Kind::follow:
       return (frame->pose(time + kDifference) * place - frame->pose(time - kDifference) * place) /
              (2 * kDifference);

@@ -45,9 +45,7 @@ bool is_no_cone(const Collider& collider) {
 }
 
 /// One whose motion only shifts it.
-bool is_plain(const Collider& collider) {
-  return is_no_cone(collider) && collider.motion.kind != Motion::Kind::follow;
-}
+bool is_plain(const Collider& collider) { return is_no_cone(collider) && !collider.motion.turns(); }
 
 /// Calls the action with the one of the solids that it is, as std::visit does, but inline: that
 /// goes through a table of functions, and this runs for every vertex.

@@ -156,16 +156,24 @@ bool is_hung_evenly(const Simulation& simulation) {
   return heights.maxCoeff() - heights.minCoeff() <= kLevel * box_diagonal(held);
 }
 
+/// Speed of the fastest point of a solid that cloth may touch [m/s].
+double fastest_point(const Collider& collider, const Simulation& simulation) {
+  const Sphere around = ball_around(collider.shape);
+  const double speed = collider.motion.velocity(around.centre, simulation.time()).norm();
+  if (collider.motion.kind != Motion::Kind::turn) return speed;
+  const Vec3 middle = collider.motion.pose(simulation.time()) * around.centre;
+  const Positions& cloth = simulation.state().positions;
+  const double farthest = (cloth.colwise() - middle).colwise().norm().maxCoeff();
+  return speed + std::abs(collider.motion.rate) * std::min(around.radius, farthest);
+}
+
 double driven_speed(const Simulation& simulation) {
   double speed = 0;
   for (const Pin& pin : simulation.model().pins)
     speed = std::max(speed, pin.velocity(simulation.time()).norm());
   for (const Collider& collider : simulation.scene().colliders)
-    if (collider.motion.kind != Motion::Kind::hold) {
-      const Vec3 middle = ball_around(collider.shape).centre;
-      const Vec3 velocity = collider.motion.velocity(middle, simulation.time());
-      speed = std::max(speed, velocity.norm());
-    }
+    if (collider.motion.kind != Motion::Kind::hold)
+      speed = std::max(speed, fastest_point(collider, simulation));
   return speed;
 }
 

@@ -60,6 +60,70 @@ TEST_CASE("motion: the velocity is the displacement's rate", "[base]") {
   }
 }
 
+namespace {
+
+/// Counterclockwise round a line through (1, 2, 3) along y, which points up.
+Motion round_a_line(double rate) {
+  Motion motion;
+  motion.kind = Motion::Kind::turn;
+  motion.centre = {1, 2, 3};
+  motion.axis = Vec3::UnitY();
+  motion.rate = rate;
+  motion.time_begin = 0.5;
+  motion.time_end = 2.5;
+  return motion;
+}
+
+}  // namespace
+
+TEST_CASE("motion: what turns is on its circle, and goes along it", "[base]") {
+  const double rate = GENERATE(-0.7, 3.0, 40.0);  // [rad/s]
+  const Motion motion = round_a_line(rate);
+  const Vec3 place = motion.centre + Vec3(2, 0.4, 0);
+  for (const double time : {0.5, 0.9, 2.0, 2.4999}) {
+    CAPTURE(rate, time);
+    const double angle = rate * (time - 0.5);
+    const Vec3 arm(2 * std::cos(angle), 0.4, -2 * std::sin(angle));
+    CHECK((motion.pose(time) * place - motion.centre - arm).norm() < 1e-14);
+    const Vec3 along(arm.z(), 0, -arm.x());  // y x arm
+    CHECK((motion.velocity(place, time) - rate * along).norm() < 1e-13 * std::abs(rate));
+  }
+}
+
+TEST_CASE("motion: what turns rests before and after, where it then is", "[base]") {
+  const Motion motion = round_a_line(3);
+  const Vec3 place = motion.centre + Vec3(2, 0, 0);
+  for (const double time : {0.0, 0.5}) CHECK(motion.pose(time) * place == place);
+  for (const double time : {2.5, 99.0}) {
+    CHECK((motion.pose(time) * place - motion.centre - Vec3(2 * std::cos(6), 0, -2 * std::sin(6)))
+              .norm() < 1e-14);
+    CHECK(motion.velocity(place, time).isZero(0));
+  }
+  CHECK(motion.velocity(place, 0.4).isZero(0));
+  CHECK(motion.velocity(place, 0.5) == Vec3(0, 0, -6));
+}
+
+TEST_CASE("motion: what turns about any line keeps that line and all distances", "[base]") {
+  Motion motion = round_a_line(5);
+  motion.axis = Vec3(1, -2, 2) / 3;
+  const Pose pose = motion.pose(1.7);
+  for (const double along : {-3.0, 0.0, 0.2}) {
+    const Vec3 place = motion.centre + along * motion.axis;
+    CHECK((pose * place - place).norm() < 1e-14);
+    CHECK(motion.velocity(place, 1.7).norm() < 1e-13);
+  }
+  CHECK((pose.rotation * pose.rotation.transpose() - Mat3::Identity()).norm() < 1e-14);
+  CHECK(pose.rotation.trace() == Approx(1 + 2 * std::cos(5 * 1.2)));
+}
+
+TEST_CASE("motion: only a turn and a frame turn", "[base]") {
+  const auto kind = GENERATE(Motion::Kind::hold, Motion::Kind::move, Motion::Kind::ease,
+                             Motion::Kind::oscillate, Motion::Kind::turn, Motion::Kind::follow);
+  Motion motion;
+  motion.kind = kind;
+  CHECK(motion.turns() == (kind == Motion::Kind::turn || kind == Motion::Kind::follow));
+}
+
 TEST_CASE("motion: what follows a turning frame moves across its arm", "[base]") {
   struct Turntable : MovingFrame {
     Pose pose(double time) const override {

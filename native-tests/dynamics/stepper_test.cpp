@@ -71,6 +71,30 @@ TEST_CASE("steppers: pinned vertices have the speed of their pins", "[dynamics]"
   }
 }
 
+// The chord of a substep, which some steppers take as the velocity, is turned by omega h/2 from it.
+TEST_CASE("steppers: pinned vertices go round with their pins, then rest", "[dynamics]") {
+  Motion motion;
+  motion.kind = Motion::Kind::turn;
+  motion.centre = {0.1, 0.2, 0.3};
+  motion.axis = Vec3(2, 1, -2) / 3;
+  motion.rate = 2;
+  motion.time_end = 1;
+  for (const MethodOptions& options : everyday_methods()) {
+    CAPTURE(options.stepper->name);
+    ClothModel model = held_model(motion);
+    const State end = advanced(model, options, tossed_state(), 15);
+    const double time = 15 * options.step;
+    for (const Pin& pin : model.pins) {
+      const Vec3 arm = pin.position(time) - motion.centre;
+      CHECK(end.positions.col(pin.vertex.value) == pin.position(time));
+      CHECK((arm.norm() - (pin.place - motion.centre).norm()) == Approx(0).margin(1e-14));
+      const Vec3 around = motion.rate * motion.axis.cross(arm);
+      const Vec3 velocity = end.velocities.col(pin.vertex.value);
+      CHECK((velocity - around).norm() < motion.rate * options.step * around.norm());
+    }
+  }
+}
+
 TEST_CASE("steppers: a flat sheet without weight stays where it is to rounding", "[dynamics]") {
   for (const MethodOptions& options : everyday_methods()) {
     CAPTURE(options.stepper->name);

@@ -94,7 +94,9 @@ TEST_CASE("energy_watch: what moves or blows works on cloth, and bounds no energ
     other[Json::json_pointer(pointer)] = parse_json(value);
     return bounds_energy(other);
   };
-  const char* const motion = R"({"kind": "ease", "offset_m": [0, 0, 1], "begin_s": 1, "end_s": 2})";
+  const char* const motion =
+      GENERATE(R"({"kind": "ease", "offset_m": [0, 0, 1], "begin_s": 1, "end_s": 2})",
+               R"({"kind": "turn", "axis": [0, 1, 0], "rad_per_s": 3, "begin_s": 1, "end_s": 2})");
   CHECK_FALSE(with("/world/air", R"({"wind": {"velocity_m_per_s": [0, 0, 1]}})"));
   CHECK_FALSE(with("/world/colliders/0/motion", motion));
   CHECK_FALSE(with("/cloth/sheet/origin_m", "[0, -0.1, 0]"));

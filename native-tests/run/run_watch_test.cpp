@@ -324,6 +324,17 @@ TEST_CASE("run_watch: cloth that is thrown is fast from the start", "[run]") {
   CHECK(warnings_of(thrown, 0.2).empty());
 }
 
+// Cloth lies 4 m from the line that a floor turns about, and is thrown at 24 m/s.
+TEST_CASE("run_watch: a solid that turns explains the speed of what it throws", "[run]") {
+  const Json json = parse_json(R"({
+      "cloth": {"sheet": {"width_m": 0.4, "height_m": 0.4, "columns": 4, "rows": 4,
+                          "origin_m": [4, 0.001, 0], "warp_direction": [0, 0, 1]}},
+      "fabric": {"name": "linen"}, "method": {"stepper": "xpbd"},
+      "world": {"gravity_m_per_s2": [0, 0, 0], "colliders": [{"plane": {},
+          "motion": {"kind": "turn", "axis": [0, 0, 1], "rad_per_s": 6, "end_s": 9}}]}})");
+  CHECK(warnings_of(read_scene(JsonReader(json), fabric_library()), 0.2).empty());
+}
+
 TEST_CASE("run_watch: what is left unsolved is told from the first of its steps on", "[run]") {
   Simulation simulation(changed("swinging_sheet", {{"/refinement/level", 0}}));
   RunWatch watch(simulation);

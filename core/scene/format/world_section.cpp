@@ -12,16 +12,24 @@
 namespace pleat {
 namespace {
 
-constexpr std::array<Word<Motion::Kind>, 4> kMotionKinds{{{"hold", Motion::Kind::hold},
+constexpr std::array<Word<Motion::Kind>, 5> kMotionKinds{{{"hold", Motion::Kind::hold},
                                                           {"move", Motion::Kind::move},
                                                           {"ease", Motion::Kind::ease},
-                                                          {"oscillate", Motion::Kind::oscillate}}};
+                                                          {"oscillate", Motion::Kind::oscillate},
+                                                          {"turn", Motion::Kind::turn}}};
 
 constexpr std::array<Word<ContactResponse>, 2> kContactResponses{
     {{"resting", ContactResponse::resting}, {"uniform", ContactResponse::uniform}}};
 
 constexpr double kFastestWind = 1000;  // [m/s]: that of a blast
 constexpr std::int64_t kLargestSeed = std::int64_t{1} << 53;
+
+void read_interval(const JsonReader& reader, Motion& motion) {
+  if (const auto at = reader.find("begin_s")) motion.time_begin = at->number(kNotNegative);
+  motion.time_end = reader.at("end_s").number(kNotNegative);
+  if (motion.time_end < motion.time_begin)
+    reader.at("end_s").fail("a time that is not before begin_s");
+}
 
 Motion read_motion(const JsonReader& reader) {
   Motion motion;
@@ -34,16 +42,20 @@ Motion read_motion(const JsonReader& reader) {
     case Motion::Kind::ease:
       reader.allow_keys({"kind", "offset_m", "begin_s", "end_s"});
       motion.offset = reader.at("offset_m").vec3();
-      if (const auto at = reader.find("begin_s")) motion.time_begin = at->number(kNotNegative);
-      motion.time_end = reader.at("end_s").number(kNotNegative);
-      if (motion.time_end < motion.time_begin)
-        reader.at("end_s").fail("a time that is not before begin_s");
+      read_interval(reader, motion);
       break;
     case Motion::Kind::oscillate:
       reader.allow_keys({"kind", "offset_m", "begin_s", "frequency_hz"});
       motion.offset = reader.at("offset_m").vec3();
       if (const auto at = reader.find("begin_s")) motion.time_begin = at->number(kNotNegative);
       motion.frequency = reader.at("frequency_hz").number(kPositive);
+      break;
+    case Motion::Kind::turn:
+      reader.allow_keys({"kind", "point_m", "axis", "rad_per_s", "begin_s", "end_s"});
+      if (const auto at = reader.find("point_m")) motion.centre = at->vec3();
+      motion.axis = reader.at("axis").direction();
+      motion.rate = reader.at("rad_per_s").number();
+      read_interval(reader, motion);
       break;
     case Motion::Kind::follow:
       break;  // has no word of its own here
@@ -55,7 +67,13 @@ Json json_motion(const Motion& motion) {
   Json json;
   json["kind"] = word_for(kMotionKinds, motion.kind);
   if (motion.kind == Motion::Kind::hold) return json;
-  json["offset_m"] = json_vec3(motion.offset);
+  if (motion.kind == Motion::Kind::turn) {
+    json["point_m"] = json_vec3(motion.centre);
+    json["axis"] = json_vec3(motion.axis);
+    json["rad_per_s"] = motion.rate;
+  } else {
+    json["offset_m"] = json_vec3(motion.offset);
+  }
   json["begin_s"] = motion.time_begin;
   if (motion.kind == Motion::Kind::oscillate) {
     json["frequency_hz"] = motion.frequency;
@@ -69,7 +87,8 @@ bool same_motion(const PinRule& one, const PinRule& other) {
   const Motion& a = one.motion;
   const Motion& b = other.motion;
   return one.bone == other.bone && a.kind == b.kind && a.offset == b.offset &&
-         a.time_begin == b.time_begin && a.time_end == b.time_end && a.frequency == b.frequency;
+         a.time_begin == b.time_begin && a.time_end == b.time_end && a.frequency == b.frequency &&
+         a.centre == b.centre && a.axis == b.axis && a.rate == b.rate;
 }
 
 /// The unrefined vertices that pins hold. The mesh, which may be large, is made at most once and

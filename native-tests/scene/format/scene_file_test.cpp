@@ -349,6 +349,21 @@ const BadScene kBadScenes[] = {
     {R"({"cloth": {"sheet": {}}, "pins": [{"part": "upper_edge",
          "motion": {"kind": "oscillate", "offset_m": [1, 0, 0], "frequency_hz": 0}}]})",
      "/pins/0/motion/frequency_hz", "expected a number > 0.0, got 0"},
+    {R"({"cloth": {"sheet": {}}, "pins": [{"part": "upper_edge",
+         "motion": {"kind": "turn", "axis": [0, 0, 0], "rad_per_s": 1, "end_s": 1}}]})",
+     "/pins/0/motion/axis", "expected a direction, got three zeros"},
+    {R"({"cloth": {"sheet": {}}, "pins": [{"part": "upper_edge",
+         "motion": {"kind": "turn", "axis": [1, 0, 0], "rad_per_s": 1, "begin_s": 2, "end_s": 1}}]})",
+     "/pins/0/motion/end_s", "expected a time that is not before begin_s, got 1"},
+    {R"({"cloth": {"sheet": {}}, "pins": [{"part": "upper_edge",
+         "motion": {"kind": "turn", "axis": [1, 0, 0], "offset_m": [1, 0, 0], "end_s": 1}}]})",
+     "/pins/0/motion/offset_m",
+     R"(expected one of the keys "kind", "point_m", "axis", "rad_per_s", "begin_s", "end_s", got "offset_m")"},
+    {R"({"cloth": {"sheet": {}}, "pins": [
+         {"part": "upper_edge", "motion": {"kind": "turn", "axis": [1, 0, 0], "rad_per_s": 1, "end_s": 1}},
+         {"part": "left_edge", "motion": {"kind": "turn", "axis": [1, 0, 0], "rad_per_s": 2, "end_s": 1}}]})",
+     "/pins/1",
+     "expected one motion for each vertex, got a second one for vertex 0, which /pins/0 moves too"},
     // World.
     {R"({"cloth": {"sheet": {}}, "world": {"gravity_m_per_s2": -9.81}})", "/world/gravity_m_per_s2",
      "expected an array of 3 numbers, got -9.81"},
@@ -448,7 +463,10 @@ const char* const kRichScene = R"({
                     "wind": {"velocity_m_per_s": [3, 0, 1], "gust_intensity": 0.3, "seed": 7}},
             "colliders": [{"plane": {"point_m": [0, 0.1, 0], "normal": [0, 1, 1]}, "friction": 0.7},
                           {"sphere": {"centre_m": [0, 0.3, 0], "radius_m": 0.1},
-                           "motion": {"kind": "oscillate", "offset_m": [0, 0, 0.1], "begin_s": 1, "frequency_hz": 2}}]},
+                           "motion": {"kind": "oscillate", "offset_m": [0, 0, 0.1], "begin_s": 1, "frequency_hz": 2}},
+                          {"plane": {"point_m": [0, -9, 0]},
+                           "motion": {"kind": "turn", "point_m": [0, -9.1, 0.1], "axis": [1, 0, 2],
+                                      "rad_per_s": -0.3, "begin_s": 0.2, "end_s": 1.3}}]},
   "method": {"stepper": "explicit", "step_s": 0.003, "substeps": "stable"},
   "duration_s": 1.7, "record": {"every_s": 0.06, "format": "binary"}})";
 
@@ -523,12 +541,19 @@ TEST_CASE("scene file: every number of a rich scene arrives in SI units", "[scen
   CHECK(scene.air->wind.velocity == Vec3(3, 0, 1));
   CHECK(scene.air->wind.gust_intensity == 0.3);
   CHECK(scene.air->wind.seed == 7);
-  REQUIRE(scene.colliders.size() == 2);
+  REQUIRE(scene.colliders.size() == 3);
   CHECK(
       std::get<Plane>(scene.colliders[0].shape).normal.isApprox(Vec3(0, 1, 1).normalized(), 1e-15));
   CHECK(scene.colliders[0].friction == 0.7);
   CHECK(std::get<Sphere>(scene.colliders[1].shape).radius == 0.1);
   CHECK(scene.colliders[1].motion.frequency == 2);
+  const Motion& turn = scene.colliders[2].motion;
+  CHECK(turn.kind == Motion::Kind::turn);
+  CHECK(turn.centre == Vec3(0, -9.1, 0.1));
+  CHECK(turn.axis.isApprox(Vec3(1, 0, 2).normalized(), 1e-15));
+  CHECK(turn.rate == -0.3);
+  CHECK(turn.time_begin == 0.2);
+  CHECK(turn.time_end == 1.3);
   CHECK(scene.method.stepper == &steppers::kExplicitEuler);
   CHECK(scene.method.step == 0.003);
   CHECK(scene.method.substeps == 0);
@@ -649,6 +674,13 @@ TEST_CASE("scene file: what was written is read back to the bit", "[scene]") {
     const std::string written = write_scene(read_text(text));
     CHECK(write_scene(read_text(written)) == written);
   }
+}
+
+TEST_CASE("scene file: parts that one turn holds may share a vertex", "[scene]") {
+  const Scene scene = read_text(R"({"cloth": {"sheet": {}}, "pins": [
+      {"part": "upper_edge", "motion": {"kind": "turn", "axis": [3, 0, 0], "rad_per_s": 1, "end_s": 1}},
+      {"part": "left_edge", "motion": {"kind": "turn", "axis": [1, 0, 0], "rad_per_s": 1, "end_s": 1}}]})");
+  CHECK(scene.pins.size() == 2);
 }
 
 TEST_CASE("scene file: a number keeps every bit through the file", "[scene]") {

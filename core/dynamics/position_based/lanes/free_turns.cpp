@@ -22,8 +22,7 @@ constexpr double kLeastInertia = 1e-6;
 constexpr double kLargestTurn = 0.1;
 
 bool stays(const Motion& motion) {
-  return motion.kind == Motion::Kind::hold ||
-         (motion.kind != Motion::Kind::follow && motion.offset.isZero(0));
+  return motion.kind == Motion::Kind::hold || (!motion.turns() && motion.offset.isZero(0));
 }
 
 /// True where springs and bending elements join all vertices.

@@ -126,6 +126,9 @@ TEST_CASE("free turns: there are none in two pieces, about two lines or about pi
   CHECK_FALSE(are_none());
   cloth.model.pins[1].motion.offset = {0, 0, 0.1};
   CHECK(are_none());
+  cloth.model.pins[1].motion.offset.setZero();
+  cloth.model.pins[1].motion.kind = Motion::Kind::turn;
+  CHECK(are_none());
   cloth.model.pins[1].motion.kind = Motion::Kind::hold;
   cloth.model.pins[1].place.x() += 1e-3;
   CHECK(are_none());
