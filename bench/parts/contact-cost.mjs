@@ -12,6 +12,7 @@ import {
   table,
 } from './bench-rows.mjs';
 import { commit, reference } from './command.mjs';
+import { kStretches, kTimes } from './contact-columns.mjs';
 import { curtain, swinging, withContact } from './contact-scenes.mjs';
 import { contestant } from './contestants.mjs';
 import { by, cotton, kEdge, kLimp, kStep, lying } from './sheets.mjs';
@@ -59,13 +60,10 @@ async function costRow(name, n, repeat) {
 const kColumns = {
   scene: 'scene',
   faces: 'n_faces',
-  'ms/frame': 'ms_per_frame',
-  'ms without': 'ms_per_frame_without',
+  ...kTimes,
   'cost ms': 'cost_ms',
   spread: 'spread_ms',
-  'us/face': 'us_per_face',
-  'stretch %': (row) => 100 * row.largest_stretch,
-  'stretch without %': (row) => 100 * row.largest_stretch_without,
+  ...kStretches,
   'memory MB': (row) => row.process_peak_memory_bytes / 1e6,
   status: 'status',
 };

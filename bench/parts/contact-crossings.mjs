@@ -6,6 +6,7 @@ import { join } from 'node:path';
 import { BadInput, tell } from './bench-options.mjs';
 import { atMost, hasFinished, largest, mean, sideBySide, table } from './bench-rows.mjs';
 import { commit, inFolder, ran } from './command.mjs';
+import { kStretches, kTimes } from './contact-columns.mjs';
 import { kForAll, kForSome, withContact } from './contact-scenes.mjs';
 import { contestant } from './contestants.mjs';
 import { explicitOnes, steppers } from './same-cloth-runs.mjs';
@@ -82,13 +83,10 @@ const kColumns = {
   'held back %': (row) => 100 * row.cloth_contact?.held_back_share,
   'lost mm': 'lost_mm_per_frame',
   blocked: (row) => row.cloth_contact?.n_blocked_substeps,
-  'ms/frame': 'ms_per_frame',
-  'ms without': 'ms_per_frame_without',
-  'us/face': 'us_per_face',
+  ...kTimes,
   crossings: 'crossings',
   'crossings without': 'crossings_without',
-  'stretch %': (row) => 100 * row.largest_stretch,
-  'stretch without %': (row) => 100 * row.largest_stretch_without,
+  ...kStretches,
   told: (row) => row.told.join(', '),
   'told without': (row) => row.told_without.join(', '),
 };
