@@ -18,7 +18,8 @@ using nlohmann::json;
 
 // Scenes of required keys alone, so that everything else in the written scene is a default.
 const char* const kShortScenes[] = {
-    R"({"cloth": {"sheet": {}}, "world": {"air": {}, "colliders": [{"plane": {}}, {"sphere": {}}]},
+    R"({"cloth": {"sheet": {}}, "world": {"air": {},
+        "colliders": [{"plane": {}}, {"sphere": {}}, {"capsule": {}}]},
         "pins": [{"part": "upper_left", "motion": {"kind": "ease", "offset_m": [1, 0, 0], "end_s": 1}},
                  {"part": "lower_left", "motion": {"kind": "move", "offset_m": [1, 0, 0], "end_s": 1}},
                  {"vertices": [1], "motion": {"kind": "oscillate", "offset_m": [1, 0, 0], "frequency_hz": 1}},

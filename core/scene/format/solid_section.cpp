@@ -10,9 +10,9 @@ namespace {
 /// How a scene tells of a solid.
 template <class Solid>
 struct SolidForm {
-  const char* word = nullptr;  ///< none for a solid that no scene can name
-  void (*read)(const JsonReader& reader, Solid& solid) = nullptr;
-  Json (*json)(const Solid& solid) = nullptr;
+  const char* word;
+  void (*read)(const JsonReader& reader, Solid& solid);
+  Json (*json)(const Solid& solid);
 };
 
 SolidForm<Plane> form_of(const Plane& /*plane*/) {
@@ -39,16 +39,30 @@ SolidForm<Sphere> form_of(const Sphere& /*sphere*/) {
           }};
 }
 
-/// A body alone has limbs.
-SolidForm<RoundedCone> form_of(const RoundedCone& /*cone*/) { return {}; }
+/// Scenes name capsules alone; other rounded cones are limbs of a body.
+SolidForm<RoundedCone> form_of(const RoundedCone& /*cone*/) {
+  return {"capsule",
+          [](const JsonReader& reader, RoundedCone& cone) {
+            reader.allow_keys({"a_m", "b_m", "radius_m"});
+            if (const auto at = reader.find("a_m")) cone.centre_a = at->vec3();
+            if (const auto at = reader.find("b_m")) cone.centre_b = at->vec3();
+            if (const auto at = reader.find("radius_m"))
+              cone.radius_a = cone.radius_b = at->number(kPositive);
+          },
+          [](const RoundedCone& cone) {
+            PLEAT_CHECK(
+                cone.radius_a == cone.radius_b && cone.half_width_a == 0 && cone.half_width_b == 0,
+                "a scene names capsules alone of rounded cones");
+            return Json{{"a_m", json_vec3(cone.centre_a)},
+                        {"b_m", json_vec3(cone.centre_b)},
+                        {"radius_m", cone.radius_a}};
+          }};
+}
 
-/// Calls work(solid, form) for each kind of solid that a scene can name, with its usual numbers.
+/// Calls work(solid, form) for each kind of solid, with its usual numbers.
 template <class... Solids, class Work>
 void for_each_form(const std::variant<Solids...>& /*any*/, const Work& work) {
-  const auto look_at = [&](const auto& solid) {
-    if (const auto form = form_of(solid); form.word) work(solid, form);
-  };
-  (look_at(Solids{}), ...);
+  (work(Solids{}, form_of(Solids{})), ...);
 }
 
 }  // namespace
@@ -73,17 +87,10 @@ SolidShape read_solid(const JsonReader& collider) {
 }
 
 const char* word_for(const SolidShape& shape) {
-  return std::visit(
-      [](const auto& solid) {
-        const char* const word = form_of(solid).word;
-        PLEAT_CHECK(word, "no scene can name this solid");
-        return word;
-      },
-      shape);
+  return std::visit([](const auto& solid) { return form_of(solid).word; }, shape);
 }
 
 Json json_solid(const SolidShape& shape) {
-  word_for(shape);
   return std::visit([](const auto& solid) { return form_of(solid).json(solid); }, shape);
 }
 

@@ -13,7 +13,7 @@ std::vector<const char*> solid_words();
 /// The solid that a collider names.
 SolidShape read_solid(const JsonReader& collider);
 
-/// Its word, and what stands there. Throws ContractError for a solid that no scene can name.
+/// Its word, and what stands there. Throws ContractError for a limb that no scene can name.
 const char* word_for(const SolidShape& shape);
 Json json_solid(const SolidShape& shape);
 

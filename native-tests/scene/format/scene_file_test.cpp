@@ -370,9 +370,11 @@ const BadScene kBadScenes[] = {
     {R"({"cloth": {"sheet": {}}, "world": {"air": {"density_kg_per_m3": 0}}})",
      "/world/air/density_kg_per_m3", "expected a number > 0.0, got 0"},
     {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"friction": 1}]}})", "/world/colliders/0",
-     R"(expected one of the keys "plane", "sphere", got an object)"},
+     R"(expected one of the keys "plane", "sphere", "capsule", got an object)"},
     {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"sphere": {"radius_m": 0}}]}})",
      "/world/colliders/0/sphere/radius_m", "expected a number > 0.0, got 0"},
+    {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"capsule": {"radius_m": -1}}]}})",
+     "/world/colliders/0/capsule/radius_m", "expected a number > 0.0, got -1"},
     {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"plane": {"normal": [0, 0, 0]}}]}})",
      "/world/colliders/0/plane/normal", "expected a direction, got three zeros"},
     {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"plane": {}, "friction": -0.1}]}})",
@@ -466,7 +468,8 @@ const char* const kRichScene = R"({
                            "motion": {"kind": "oscillate", "offset_m": [0, 0, 0.1], "begin_s": 1, "frequency_hz": 2}},
                           {"plane": {"point_m": [0, -9, 0]},
                            "motion": {"kind": "turn", "point_m": [0, -9.1, 0.1], "axis": [1, 0, 2],
-                                      "rad_per_s": -0.3, "begin_s": 0.2, "end_s": 1.3}}]},
+                                      "rad_per_s": -0.3, "begin_s": 0.2, "end_s": 1.3}},
+                          {"capsule": {"a_m": [0, 0.2, 0], "b_m": [0.3, 0.2, 0.1], "radius_m": 0.07}}]},
   "method": {"stepper": "explicit", "step_s": 0.003, "substeps": "stable"},
   "duration_s": 1.7, "record": {"every_s": 0.06, "format": "binary"}})";
 
@@ -554,6 +557,11 @@ TEST_CASE("scene file: every number of a rich scene arrives in SI units", "[scen
   CHECK(turn.rate == -0.3);
   CHECK(turn.time_begin == 0.2);
   CHECK(turn.time_end == 1.3);
+  const auto& capsule = std::get<RoundedCone>(scene.colliders[3].shape);
+  CHECK(capsule.centre_a == Vec3(0, 0.2, 0));
+  CHECK(capsule.centre_b == Vec3(0.3, 0.2, 0.1));
+  CHECK(capsule.radius_a == 0.07);
+  CHECK(capsule.radius_b == 0.07);
   CHECK(scene.method.stepper == &steppers::kExplicitEuler);
   CHECK(scene.method.step == 0.003);
   CHECK(scene.method.substeps == 0);

@@ -35,6 +35,30 @@ describe('the look of solids', () => {
     expect(geometry?.boundingSphere?.radius).toBeCloseTo(0.4925, 6);
   });
 
+  it('draws a capsule along its axis, and the same one wherever it is', () => {
+    const capsuleAt = (x: number): Collider => ({
+      shape: 'capsule',
+      a_m: [x, 1, 0],
+      b_m: [x + 0.3, 1, 0.4],
+      radius_m: 0.1,
+    });
+    const [body, moved] = bodiesOf([capsuleAt(0), capsuleAt(0.1)]);
+    expect(moved?.form).toBe(body?.form);
+    const [low, high] = [body?.box.min.toArray() ?? [], body?.box.max.toArray() ?? []];
+    for (const [k, x] of [-0.1, 0.9, -0.1].entries()) expect(low[k]).toBeCloseTo(x, 9);
+    for (const [k, x] of [0.4, 1.1, 0.5].entries()) expect(high[k]).toBeCloseTo(x, 9);
+    const places = body?.build().getAttribute('position');
+    let farthest = 0;
+    for (let i = 0; i < (places?.count ?? 0); ++i) {
+      const place = new Vector3(places?.getX(i), places?.getY(i), places?.getZ(i));
+      const direction = new Vector3(0.6, 0, 0.8);
+      const along = Math.max(-0.25, Math.min(0.25, place.dot(direction)));
+      const nearest = direction.multiplyScalar(along);
+      farthest = Math.max(farthest, Math.abs(place.distanceTo(nearest) - 0.0985));
+    }
+    expect(farthest).toBeLessThan(1e-6);
+  });
+
   it('takes a level plane for the floor, and no slope', () => {
     const floorOf = (normal: [number, number, number]) =>
       lookOf({ shape: 'plane', point_m: [0, 0.8, 0], normal }).floor;

@@ -1,5 +1,12 @@
 // How stages show solids: the one place that tells them apart.
-import { Box3, type BufferGeometry, SphereGeometry, Vector3 } from 'three';
+import {
+  Box3,
+  type BufferGeometry,
+  CapsuleGeometry,
+  Quaternion,
+  SphereGeometry,
+  Vector3,
+} from 'three';
 import type { Collider, Triple } from '../bindings/geometry';
 
 /** A body about the origin, and where it is. */
@@ -25,6 +32,14 @@ const FLOOR_COSINE = 0.99;
 /** Share of its size at which a body is drawn, so that flat triangles on it do not cut into it. */
 const DRAWN = 0.985;
 
+function capsuleGeometry(axis: Vector3, radius: number): BufferGeometry {
+  const up = new Vector3(0, 1, 0);
+  const length = axis.length();
+  const turn = new Quaternion();
+  if (length > 0) turn.setFromUnitVectors(up, axis.clone().divideScalar(length));
+  return new CapsuleGeometry(radius, length, 20, 64).applyQuaternion(turn);
+}
+
 export function lookOf(solid: Collider): SolidLook {
   switch (solid.shape) {
     case 'plane':
@@ -37,6 +52,20 @@ export function lookOf(solid: Collider): SolidLook {
         centre: solid.centre_m,
         box: new Box3(centre.clone().sub(half), centre.clone().add(half)),
         build: () => new SphereGeometry(DRAWN * solid.radius_m, 64, 40),
+      };
+      return { body, floor: null };
+    }
+    case 'capsule': {
+      const [a, b] = [new Vector3(...solid.a_m), new Vector3(...solid.b_m)];
+      const middle = a.clone().add(b).divideScalar(2);
+      const axis = b.clone().sub(a);
+      // Whole micrometres are the same wherever it is, so that one that moves is not built anew.
+      const told = axis.toArray().map((part) => Math.round(1e6 * part));
+      const body = {
+        form: `capsule ${solid.radius_m} ${told}`,
+        centre: middle.toArray(),
+        box: new Box3().setFromPoints([a, b]).expandByScalar(solid.radius_m),
+        build: () => capsuleGeometry(axis, DRAWN * solid.radius_m),
       };
       return { body, floor: null };
     }
