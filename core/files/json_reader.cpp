@@ -156,6 +156,22 @@ Vec3 JsonReader::direction() const {
   return std::abs(length - 1) < kUnitTolerance ? given : Vec3(given / length);
 }
 
+void read_perpendicular(const JsonReader& reader, const std::array<const char*, 2>& keys,
+                        Vec3& first, Vec3& second) {
+  constexpr double kWrittenDigits = 1e-6;  // cosine; a file with six digits is meant perpendicular
+  constexpr double kRoundedDigits =
+      1e-14;  // cosine; kept to the bit, so that what was written is read back
+  if (const auto at = reader.find(keys[0])) first = at->direction();
+  if (const auto at = reader.find(keys[1])) second = at->direction();
+  const double cosine = first.dot(second);
+  if (std::abs(cosine) > kWrittenDigits)
+    throw InputError(
+        reader.pointer() + "/" + keys[1],
+        std::string("expected a direction perpendicular to ") + keys[0] + ", got one at " +
+            Json(std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / M_PI).dump() + " degrees");
+  if (std::abs(cosine) > kRoundedDigits) second = (second - cosine * first).normalized();
+}
+
 Json json_vec3(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
 }  // namespace pleat

@@ -98,6 +98,11 @@ Three read_three(const JsonReader& reader, const std::array<const char*, 3>& key
           reader.at(keys[2]).number(range)};
 }
 
+/// Reads two unit vectors by their keys; one that is not there stays. They are perpendicular: up to
+/// the digits of a file they are made so to the last bit, beyond them refused.
+void read_perpendicular(const JsonReader& reader, const std::array<const char*, 2>& keys,
+                        Vec3& first, Vec3& second);
+
 /// A vector as the array of numbers that JsonReader::vec3 reads.
 Json json_vec3(const Vec3& v);
 

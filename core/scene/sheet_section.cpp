@@ -30,24 +30,6 @@ bool is_on(const SheetSides& sides, const SheetShape& shape, double u, double v)
          (!sides.left || v == 0) && (!sides.right || v == shape.width);
 }
 
-/// Directions that are perpendicular up to the digits of a file are made so to the last bit.
-void read_directions(const JsonReader& reader, const SheetWords& words, SheetShape& shape) {
-  constexpr double kWrittenDigits = 1e-6;  // cosine; a file with six digits is meant perpendicular
-  constexpr double kRoundedDigits =
-      1e-14;  // cosine; kept to the bit, so that what was written is read back
-  if (const auto at = reader.find(words.warp_direction)) shape.warp_direction = at->direction();
-  if (const auto at = reader.find(words.weft_direction)) shape.weft_direction = at->direction();
-  const double cosine = shape.warp_direction.dot(shape.weft_direction);
-  if (std::abs(cosine) > kWrittenDigits)
-    throw InputError(reader.pointer() + "/" + words.weft_direction,
-                     std::string("expected a direction perpendicular to ") + words.warp_direction +
-                         ", got one at " +
-                         Json(std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / M_PI).dump() +
-                         " degrees");
-  if (std::abs(cosine) > kRoundedDigits)
-    shape.weft_direction = (shape.weft_direction - cosine * shape.warp_direction).normalized();
-}
-
 }  // namespace
 
 void read_sheet_shape(const JsonReader& reader, const SheetWords& words, SheetShape& shape) {
@@ -60,7 +42,8 @@ void read_sheet_shape(const JsonReader& reader, const SheetWords& words, SheetSh
   read_count("columns", shape.columns);
   read_count("rows", shape.rows);
   if (const auto at = reader.find("origin_m")) shape.origin = at->vec3();
-  read_directions(reader, words, shape);
+  read_perpendicular(reader, {words.warp_direction, words.weft_direction}, shape.warp_direction,
+                     shape.weft_direction);
   const std::int64_t n_vertices = (std::int64_t{shape.columns} + 1) * (shape.rows + 1);
   if (n_vertices > kMaxVertices)
     throw InputError(reader.pointer(), "expected at most " + std::to_string(kMaxVertices) +
