@@ -37,6 +37,11 @@ class TriangleBoxes {
   /// Keeps the tree and fits its boxes to triangles that have moved, ordered as `order` has them.
   void fit(const std::vector<Corners>& ordered);
 
+  /// Memory that it holds [bytes].
+  std::size_t bytes() const {
+    return order_.capacity() * sizeof(std::size_t) + nodes_.capacity() * sizeof(Node);
+  }
+
  private:
   static constexpr std::size_t kLeafSize = 4;
 

@@ -23,6 +23,9 @@ class TriangleTree {
   /// Quick when asked in an order in which each point is near the one before.
   Nearest nearest(const Vec3& p);
 
+  /// Memory that it holds [bytes].
+  std::size_t bytes() const { return boxes_.bytes() + corners_.capacity() * sizeof(Corners); }
+
  private:
   void search(std::size_t index, const Vec3& p, double& nearest);
 
