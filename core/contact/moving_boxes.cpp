@@ -72,6 +72,16 @@ MovingBox box_on_way(const double* begin, const double* end, double reach, const
   return {at_begin.low, at_begin.high, at_end.low, at_end.high};
 }
 
+// In the fourth lane cloth has (-1, 1) at both ends, and overlaps all. Bodies have (0, 0), nothing
+// of which is inside of the other. Loose cloth has (-1/2, -1/2) and then (1/2, 1/2): it lies above
+// bodies at the one end and below at the other, and above no loose cloth.
+void set_group(MovingBox& box, BoxGroup group) {
+  if (group == BoxGroup::cloth || is_empty(box)) return;
+  const float way = group == BoxGroup::body ? 0.0F : 0.5F;
+  box.low_begin.value[3] = box.high_begin.value[3] = -way;
+  box.low_end.value[3] = box.high_end.value[3] = way;
+}
+
 // Splits along the longest side of the box around the middles. Node k of a level l has the boxes
 // from k n / 2^l on, so that halves are equal up to one.
 void MovingBoxes::build(std::span<const MovingBox> boxes) {

@@ -15,10 +15,18 @@ namespace pleat {
 constexpr double kFarthest = 1e30;
 
 /// Bounds when some time begins and when it ends [m]; each goes straight in between. The fourth
-/// lane only tells an empty box, which overlaps none, from others.
+/// lane tells an empty box, which overlaps none, and what may overlap what.
 struct MovingBox {
   Float4 low_begin, high_begin, low_end, high_end;
 };
+
+/// Surfaces that a box is around part of: boxes of loose cloth overlap none of loose cloth, those
+/// of bodies none of bodies.
+enum class BoxGroup : std::uint8_t { cloth, loose_cloth, body };
+
+/// Puts a box that is around cloth into its group. Boxes that are merged overlap what one of them
+/// does.
+void set_group(MovingBox& box, BoxGroup group);
 
 /// Box around a point on its way, larger by `reach` to either side on each axis. It is rounded
 /// outward, by at most 4e-7 of the distance from the origin and of the reach.

@@ -108,6 +108,12 @@ NearPairs::NearPairs(std::vector<Triangle> faces, std::span<const HangingVertex>
   }
 }
 
+NearPairs::NearPairs(std::vector<Triangle> faces, std::span<const HangingVertex> hanging,
+                     std::vector<BoxGroup> groups)
+    : NearPairs(std::move(faces), hanging, static_cast<int>(groups.size())) {
+  groups_ = std::move(groups);
+}
+
 /// Fits all boxes; makes the tree first where there is none, and anew where it has grown too much.
 void NearPairs::fit(const Corridors& corridors, double margin) {
   Vec3 origin(0, 0, 0);
@@ -118,6 +124,7 @@ void NearPairs::fit(const Corridors& corridors, double margin) {
     vertex_boxes_.push_back(box_on_way(corridors.begins.data() + 3 * v,
                                        corridors.ends.data() + 3 * v,
                                        corridors.rooms[v] + margin / 2, origin));
+  for (std::size_t v = 0; v < groups_.size(); ++v) set_group(vertex_boxes_[v], groups_[v]);
   if (n_builds_ == 0 || fit_faces() > kMostGrowth * surface_at_build_) {
     build();
     surface_at_build_ = fit_faces();
@@ -275,7 +282,7 @@ std::size_t NearPairs::bytes() const {
   const auto held = [](const auto&... vectors) {
     return ((vectors.capacity() * sizeof(vectors[0])) + ...);
   };
-  return held(faces_, edges_, face_edges_, parents_, ordered_faces_, ordered_edges_,
+  return held(groups_, faces_, edges_, face_edges_, parents_, ordered_faces_, ordered_edges_,
               ordered_vertices_, leaves_, vertex_owned_at_, edge_owned_at_, vertex_boxes_,
               face_boxes_, edge_boxes_, vertex_face_, edge_edge_, sorted_, starts_, pairs_) +
          tree_.bytes();

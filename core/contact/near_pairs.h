@@ -30,6 +30,11 @@ class NearPairs {
   ///
   /// Throws ContractError where a face names a vertex twice or one that is not there.
   NearPairs(std::vector<Triangle> faces, std::span<const HangingVertex> hanging, int n_vertices);
+  /// Pairs are only of vertices whose groups may overlap.
+  ///
+  /// groups  one for each vertex; those of a face are of one group
+  NearPairs(std::vector<Triangle> faces, std::span<const HangingVertex> hanging,
+            std::vector<BoxGroup> groups);
 
   /// Finds anew. A pair is left out only if on some axis each vertex a of one side lies above each
   /// b of the other by their rooms and the margin, both when the time begins and when it ends:
@@ -89,7 +94,8 @@ class NearPairs {
   void list_pairs();
 
   int n_vertices_;
-  std::vector<Triangle> faces_;  // ascending, corners too
+  std::vector<BoxGroup> groups_;  // empty where all is cloth
+  std::vector<Triangle> faces_;   // ascending, corners too
   std::vector<std::array<VertexId, 2>> edges_;
   std::vector<std::array<int, 3>> face_edges_;    // numbers of each face's edges; -1 where halved
   std::vector<std::array<VertexId, 2>> parents_;  // parents of each vertex, if any hangs

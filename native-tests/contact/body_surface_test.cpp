@@ -5,6 +5,8 @@
 
 #include "core/base/random.h"
 #include "core/contact/body_depth.h"
+#include "core/contact/body_start.h"
+#include "core/contact/near_pairs.h"
 #include "core/contact/surface_crossings.h"
 #include "core/mesh/mesh_fault.h"
 #include "native-tests/support/bodies.h"
@@ -127,6 +129,62 @@ TEST_CASE("surface crossings: a surface that passes through itself is found, not
   Positions through = ball.places;
   through.col(0) = Vec3(-1.5, 0.01, 0.02);  // the foremost vertex, pulled out at the back
   CHECK_FALSE(own_crossings(through, ball.triangles).empty());
+}
+
+TEST_CASE("near pairs: groups leave out pairs of bodies, and of loose cloth", "[contact]") {
+  const BoxGroup cloth = GENERATE(BoxGroup::cloth, BoxGroup::loose_cloth);
+  const QuadMesh sheet = lying_sheet(5);
+  const int n = sheet.n_vertices();
+  std::vector<Triangle> faces = sheet.triangles();
+  Corridors corridors;
+  corridors.begins.resize(3, n);
+  corridors.begins << sheet.rest_positions();
+  std::vector<BoxGroup> groups(static_cast<std::size_t>(n), cloth);
+  for (const double x : {0.2, 0.5}) {
+    const BodySurface box = box_body({x, 0.5, -0.1}, {0.4, 0.4, 0.3}, Vec3::UnitX(), Vec3::UnitY());
+    const auto first = static_cast<int>(groups.size());
+    for (const auto& [a, b, c] : box.triangles)
+      faces.push_back({VertexId(first + a), VertexId(first + b), VertexId(first + c)});
+    corridors.begins.conservativeResize(3, first + 8);
+    corridors.begins.rightCols(8) = box.places;
+    groups.resize(groups.size() + 8, BoxGroup::body);
+  }
+  corridors.ends = corridors.begins;
+  corridors.ends.row(1).array() += 3;  // a motion of all
+  corridors.rooms = Eigen::VectorXd::Constant(corridors.begins.cols(), 0.02);
+  NearPairs all(faces, {}, static_cast<int>(groups.size()));
+  NearPairs grouped(faces, {}, groups);
+  REQUIRE(all.detect(corridors, 0.01));
+  REQUIRE(grouped.detect(corridors, 0.01));
+  std::vector<SurfacePair> wanted;
+  for (const SurfacePair& pair : all.pairs()) {
+    const bool first_is_body = pair.vertices[0] >= n;
+    const bool second_is_body = pair.vertices[3] >= n;
+    if (first_is_body && second_is_body) continue;
+    if (cloth == BoxGroup::loose_cloth && !first_is_body && !second_is_body) continue;
+    wanted.push_back(pair);
+  }
+  REQUIRE(wanted.size() > 20);
+  CHECK(wanted.size() < all.pairs().size());
+  CHECK(std::vector<SurfacePair>(grouped.pairs().begin(), grouped.pairs().end()) == wanted);
+}
+
+TEST_CASE("body start: cloth inside, through or on a body is told with its place", "[contact]") {
+  const QuadMesh sheet = lying_sheet(2);  // 1 m x 1 m at z = 0
+  SelfContact surfaces{sheet.triangles(), {}, sheet.rest_positions()};
+  surfaces.body_gap = 1e-3;
+  surfaces.is_loose = true;
+  const auto told = [&](const Vec3& centre, const Vec3& size) {
+    surfaces.bodies = {box_body(centre, size, Vec3::UnitX(), Vec3::UnitY())};
+    return cloth_in_bodies(surfaces, sheet.rest_positions(), 0);
+  };
+  using Catch::Contains;
+  CHECK_THAT(told({0.5, 0.5, 0}, {0.2, 0.2, 0.2}),
+             Contains("1 vertices inside") && Contains("100 mm at (0.5, 0.5, 0) m"));
+  CHECK_THAT(told({0.25, 0.3, 0}, {0.02, 0.02, 0.2}), Contains("crossings"));
+  CHECK_THAT(told({0.25, 0.3, -0.1}, {0.02, 0.02, 0.2}), Contains("touches"));
+  CHECK_THAT(told({0.25, 0.3, -0.1 - 2e-6}, {0.02, 0.02, 0.2}), Catch::Equals(""));
+  CHECK_THAT(told({0.5, 0.5, -2}, {1, 1, 1}), Catch::Equals(""));
 }
 
 }  // namespace pleat
