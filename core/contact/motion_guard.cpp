@@ -81,6 +81,13 @@ void Movers::prescribe(std::span<const char> is_prescribed) {
   }
 }
 
+const Movers::RigidBody* Movers::carrier(VertexId vertex) const {
+  if (vertex < first_carried_) return nullptr;
+  const auto body = std::find_if(bodies_.begin(), bodies_.end(),
+                                 [vertex](const RigidBody& one) { return vertex < one.end; });
+  return body != bodies_.end() && body->way ? &*body : nullptr;
+}
+
 void Movers::note(VertexId vertex) {
   if (std::exchange(is_moved_[vertex], 1)) return;
   moved_.push_back(vertex);
@@ -240,7 +247,8 @@ bool MotionGuard::join(VertexId vertex, VertexId other) {
   return is_new;
 }
 
-// A prescribed motion is that of its cluster; where two differ, nothing in it moves.
+// A prescribed motion is that of its cluster, which a body takes along; where two differ, nothing
+// in it moves.
 bool MotionGuard::move_clusters(const Positions& begins, Positions& ends) {
   for (const VertexId v : in_clusters_) clusters_[v] = {};
   for (const VertexId v : in_clusters_) {
@@ -251,15 +259,21 @@ bool MotionGuard::move_clusters(const Positions& begins, Positions& ends) {
       cluster.momentum += way / inverse;
       continue;
     }
-    cluster.is_torn = cluster.is_torn || (cluster.has_prescribed && cluster.prescribed != way);
+    const Movers::RigidBody* const carrier = movers_.carrier(v);
+    const bool goes_along =
+        carrier ? cluster.carrier == carrier : !cluster.carrier && cluster.prescribed == way;
+    cluster.is_torn = cluster.is_torn || (cluster.has_prescribed && !goes_along);
     cluster.prescribed = way;
+    cluster.carrier = carrier;
     cluster.has_prescribed = true;
   }
   bool is_met = true;
   for (const VertexId v : in_clusters_) {
     const Cluster& cluster = clusters_[static_cast<std::size_t>(root(next_in_cluster_, v))];
     is_met = is_met && !cluster.is_torn;
-    const Vec3 way = cluster.is_torn          ? Vec3(0, 0, 0)
+    if (!cluster.is_torn && movers_.carrier(v)) continue;  // it is where it is to be
+    const Vec3 way = cluster.is_torn   ? Vec3(0, 0, 0)
+                     : cluster.carrier ? Vec3(*cluster.carrier->way * begins.col(v) - begins.col(v))
                      : cluster.has_prescribed ? cluster.prescribed
                                               : Vec3(cluster.momentum / cluster.mass);
     movers_.move(v, begins.col(v) + way - ends.col(v), ends);

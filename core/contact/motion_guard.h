@@ -1,7 +1,11 @@
 #pragma once
 
+#include <limits>
+#include <optional>
+#include <span>
 #include <vector>
 
+#include "core/base/pose.h"
 #include "core/contact/self_contact.h"
 #include "core/contact/watched_pairs.h"
 
@@ -15,6 +19,19 @@ class Movers {
 
   /// Says for each vertex whether its way is prescribed.
   void prescribe(std::span<const char> is_prescribed);
+
+  /// Rigid body, with the vertices after those of the bodies before.
+  struct RigidBody {
+    int end = 0;              ///< end of its vertices
+    std::optional<Pose> way;  ///< motion over the substep; none if it stands
+  };
+  /// The last vertices, all prescribed, are of these bodies.
+  void carry(int first_vertex, std::span<const RigidBody> bodies) {
+    first_carried_ = first_vertex;
+    bodies_ = bodies;
+  }
+  /// Body that moves and carries a vertex; null for most.
+  const RigidBody* carrier(VertexId vertex) const;
 
   /// 1 / mass [1/kg]; of a vertex that hangs, of both parents. 0 where one is prescribed.
   double inverse_mass(VertexId vertex) const { return inverse_masses_[vertex]; }
@@ -42,6 +59,8 @@ class Movers {
   std::vector<std::vector<VertexId>> children_;   // empty if none hangs
   std::vector<VertexId> moved_;
   std::vector<char> is_moved_;
+  int first_carried_ = std::numeric_limits<int>::max();
+  std::span<const RigidBody> bodies_;
 };
 
 /// Shortens what a stepper proposes until no side of a watched pair passes through the other.
@@ -75,6 +94,7 @@ class MotionGuard {
   struct Cluster {
     Vec3 momentum{0, 0, 0};  // times time [kg m]
     Vec3 prescribed{0, 0, 0};
+    const Movers::RigidBody* carrier = nullptr;
     double mass = 0;  // [kg]
     bool has_prescribed = false, is_torn = false;
   };

@@ -24,7 +24,7 @@ Vec3 PairResponse::Pressing::difference(const Positions& places) const {
   return sum;
 }
 
-void PairResponse::Pressing::set_rub(const Vec3& wanted, double friction) {
+void PairResponse::Pressing::set_rub(const Vec3& wanted) {
   const double most = friction * push;
   const double squared = wanted.squaredNorm();
   slips = !(squared < most * most);
@@ -42,6 +42,7 @@ PairResponse::Pressing PairResponse::pressing(const WatchedPair& pair, const Pai
   }
   found.resistance = softness > 0 ? 1 / softness : 0;
   found.rest_gap = pair.gap;
+  found.friction = pairs_.friction(pair);
   found.begin = found.difference(begins) - pair.slip;
   take_force(pair, h, found);
   return found;
@@ -50,7 +51,7 @@ PairResponse::Pressing PairResponse::pressing(const WatchedPair& pair, const Pai
 // The normal has turned since: what would pull now is none, and friction keeps its bound.
 void PairResponse::take_force(const WatchedPair& pair, double h, Pressing& contact) const {
   contact.push = std::max(0.0, h * h * contact.normal.dot(pair.force));
-  contact.set_rub(h * h * across(pair.force, contact.normal), friction_);
+  contact.set_rub(h * h * across(pair.force, contact.normal));
 }
 
 void PairResponse::collect(const Positions& begins, const Positions& ends, double h) {
@@ -80,10 +81,10 @@ double PairResponse::solve_once(Pressing& contact, Positions& ends) const {
   if (push == 0 && contact.push == 0) return 0;
   Vec3 impulse = (push - contact.push) * contact.normal;
   contact.push = push;
-  if (friction_ > 0) {
+  if (contact.friction > 0) {
     const Vec3 before = contact.rub;
     const Vec3 way = across(apart - contact.begin, contact.normal);
-    contact.set_rub(before - contact.resistance * way, friction_);
+    contact.set_rub(before - contact.resistance * way);
     impulse += contact.rub - before;
   }
   if (impulse.isZero(0)) return 0;

@@ -14,8 +14,7 @@ namespace pleat {
 class PairResponse {
  public:
   /// pairs, movers  outlive it
-  PairResponse(WatchedPairs& pairs, Movers& movers, double friction)
-      : pairs_(pairs), movers_(movers), friction_(friction) {}
+  PairResponse(WatchedPairs& pairs, Movers& movers) : pairs_(pairs), movers_(movers) {}
 
   /// Finds what presses in a substep of h [s] with these ways [m], and starts with the last forces,
   /// which act on those ends now that no solve knew of.
@@ -39,13 +38,14 @@ class PairResponse {
     std::array<double, 4> softnesses{};  // weights over masses [1/kg]
     double resistance = 0;               // effective mass [kg]
     double rest_gap = 0;                 // [m]
+    double friction = 0;                 // Coulomb coefficient
     Vec3 begin{0, 0, 0};  // difference when the substep starts, less what friction is to undo [m]
     double push = 0;      // impulse along the normal times the substep [kg m]
     Vec3 rub{0, 0, 0};    // friction across it [kg m]
     bool slips = false;   // friction is all that there can be
 
     /// Sets the friction, as far as Coulomb's cone goes.
-    void set_rub(const Vec3& wanted, double friction);
+    void set_rub(const Vec3& wanted);
 
     /// The second side's point less the first's.
     Vec3 difference(const Positions& places) const;
@@ -60,7 +60,6 @@ class PairResponse {
 
   WatchedPairs& pairs_;
   Movers& movers_;
-  double friction_;
   std::vector<Pressing> contacts_;
   int n_active_ = 0;
 };

@@ -28,18 +28,55 @@ double least_altitude(const Positions& x, const Triangle& t) {
   return longest > 0 ? normal.norm() / std::sqrt(longest) : 0;
 }
 
+double largest_gap(const SelfContact& surfaces) {
+  if (surfaces.is_loose) return surfaces.body_gap;
+  return surfaces.bodies.empty() ? surfaces.thickness
+                                 : std::max(surfaces.thickness, surfaces.body_gap);
+}
+
+NearPairs near_pairs(const SelfContact& surfaces, int n_vertices) {
+  if (surfaces.bodies.empty()) return {surfaces.faces, surfaces.hanging, n_vertices};
+  std::vector<Triangle> faces = surfaces.faces;
+  std::vector<BoxGroup> groups(static_cast<std::size_t>(n_vertices),
+                               surfaces.is_loose ? BoxGroup::loose_cloth : BoxGroup::cloth);
+  for (const BodySurface& body : surfaces.bodies) {
+    const auto first = static_cast<std::int32_t>(groups.size());
+    for (const auto& [a, b, c] : body.triangles)
+      faces.push_back({VertexId(first + a), VertexId(first + b), VertexId(first + c)});
+    groups.resize(groups.size() + static_cast<std::size_t>(body.n_vertices()), BoxGroup::body);
+  }
+  return {std::move(faces), surfaces.hanging, std::move(groups)};
+}
+
 }  // namespace
 
 WatchedPairs::WatchedPairs(const SelfContact& surfaces, int n_vertices)
     : surfaces_(surfaces),
-      near_(surfaces.faces, surfaces.hanging, n_vertices),
+      n_cloth_(n_vertices),
+      reach_(kReach * largest_gap(surfaces)),
+      near_(near_pairs(surfaces, n_vertices)),
       widths_(static_cast<std::size_t>(n_vertices), std::numeric_limits<double>::infinity()) {
+  double least = std::numeric_limits<double>::infinity();
   for (const Triangle& face : surfaces.faces) {
     const double altitude = least_altitude(surfaces.rest_positions, face);
     for (const VertexId v : face) widths_[v] = std::min(widths_[v], altitude);
-    is_thick_ = is_thick_ || altitude < 4 * surfaces.thickness;
+    least = std::min(least, altitude);
   }
-  first_incident_.assign(static_cast<std::size_t>(n_vertices) + 1, 0);
+  is_thick_ = least < 4 * surfaces.thickness;
+  // Bodies go as they are told: what their wide faces may leave to either side would be watched.
+  for (const BodySurface& body : surfaces.bodies) {
+    first_vertex_.push_back(static_cast<int>(widths_.size()));
+    widths_.resize(widths_.size() + static_cast<std::size_t>(body.n_vertices()), least);
+  }
+  first_incident_.assign(widths_.size() + 1, 0);
+}
+
+// Vertices of a body come last in a pair with cloth, but for one that meets a face.
+int WatchedPairs::body_of(const SurfacePair& pair) const {
+  const int last = std::max(pair.vertices[0], pair.vertices[3]);
+  if (last < n_cloth_) return -1;
+  const auto after = std::upper_bound(first_vertex_.begin(), first_vertex_.end(), last);
+  return static_cast<int>(after - first_vertex_.begin()) - 1;
 }
 
 bool WatchedPairs::cover(const Positions& places, VertexId vertex, double time) const {
@@ -102,7 +139,7 @@ bool WatchedPairs::stay_apart(const SurfacePair& pair, Vec3& normal) const {
     for (int b = n_first; b < 4; ++b, ++k) {
       const double reach =
           spread * (corridors_.rooms[pair.vertices[a]] + corridors_.rooms[pair.vertices[b]]) +
-          kReach * surfaces_.thickness;
+          reach_;
       const Vec3 at_end =
           corridors_.ends.col(pair.vertices[b]) - corridors_.ends.col(pair.vertices[a]);
       if (!(normal.dot(differences[k]) >= reach && normal.dot(at_end) >= reach)) return false;
@@ -110,7 +147,8 @@ bool WatchedPairs::stay_apart(const SurfacePair& pair, Vec3& normal) const {
   return true;
 }
 
-double WatchedPairs::rest_gap(const SurfacePair& pair) const {
+double WatchedPairs::rest_gap(const SurfacePair& pair, int body) const {
+  if (body >= 0) return surfaces_.body_gap;
   if (!is_thick_) return surfaces_.thickness;
   const double distance =
       closest_points(pair_differences(pair, surfaces_.rest_positions), pair.n_differences())
@@ -120,7 +158,7 @@ double WatchedPairs::rest_gap(const SurfacePair& pair) const {
 
 bool WatchedPairs::detect(bool keeps_all) {
   ++n_lists_;
-  if (!near_.detect(corridors_, kReach * surfaces_.thickness)) {
+  if (!near_.detect(corridors_, reach_)) {
     forget();
     return false;
   }
@@ -134,7 +172,10 @@ bool WatchedPairs::detect(bool keeps_all) {
     WatchedPair pair;
     if (is_known) pair = *known++;
     if (!keeps_all && stay_apart(sides, pair.normal)) continue;
-    if (!is_known) pair.gap = rest_gap(sides);
+    if (!is_known) {
+      pair.body = body_of(sides);
+      pair.gap = rest_gap(sides, pair.body);
+    }
     pair.sides = sides;
     pairs_.push_back(pair);
   }

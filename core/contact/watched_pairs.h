@@ -12,6 +12,7 @@ namespace pleat {
 /// A pair that may come to touch, with what is known of it from substep to substep.
 struct WatchedPair {
   SurfacePair sides;
+  std::int32_t body = -1;  ///< body that one side is of, if any
   Vec3 normal{0, 0, 0};  ///< direction from the first side to the second, tried first: zero or unit
   double gap = 0;        ///< gap that the sides rest at [m]
   Vec3 force{0, 0, 0};   ///< force of the first side on the second in the last substep [N]
@@ -25,7 +26,8 @@ struct WatchedPair {
 /// it was on when the list was made, with room to either side.
 class WatchedPairs {
  public:
-  /// surfaces  outlives it
+  /// surfaces    outlives it
+  /// n_vertices  of the cloth: those of bodies come after them
   WatchedPairs(const SelfContact& surfaces, int n_vertices);
 
   /// True while the places at the time are within the corridors, and the time within theirs.
@@ -50,17 +52,27 @@ class WatchedPairs {
             incident_.data() + first_incident_[vertex + 1]};
   }
 
+  /// Coulomb coefficient of the two sides.
+  double friction(const WatchedPair& pair) const {
+    return pair.body < 0 ? surfaces_.friction
+                         : surfaces_.bodies[static_cast<std::size_t>(pair.body)].friction;
+  }
+
   /// Lists made so far.
   int n_lists() const { return n_lists_; }
   std::size_t bytes() const;
 
  private:
   bool stay_apart(const SurfacePair& pair, Vec3& normal) const;
-  double rest_gap(const SurfacePair& pair) const;
+  int body_of(const SurfacePair& pair) const;
+  double rest_gap(const SurfacePair& pair, int body) const;
   bool detect(bool keeps_all);
   void connect();
 
   const SelfContact& surfaces_;
+  int n_cloth_;                    // vertices of the cloth
+  std::vector<int> first_vertex_;  // first vertex of each body
+  double reach_;                   // distance from which pairs are watched [m]
   NearPairs near_;
   std::vector<double> widths_;  // least altitude of the faces around each vertex [m]
   bool is_thick_ = false;       // some faces are near at rest: gaps are the pair's own

@@ -1,23 +1,74 @@
 #include "core/dynamics/cloth_contact.h"
 
+#include <limits>
+#include <optional>
+
 #include "core/model/hanging_vertices.h"
 
 namespace pleat {
 
+namespace {
+
+int n_in_bodies(const SelfContact& surfaces) {
+  int n = 0;
+  for (const BodySurface& body : surfaces.bodies) n += body.n_vertices();
+  return n;
+}
+
+/// Masses of the cloth; nobody asks for those of bodies.
+Eigen::VectorXd all_masses(const ClothModel& model) {
+  Eigen::VectorXd masses =
+      Eigen::VectorXd::Ones(model.n_vertices() + n_in_bodies(*model.self_contact));
+  masses.head(model.n_vertices()) = model.masses;
+  return masses;
+}
+
+}  // namespace
+
 ClothContact::ClothContact(ClothModel& model)
     : model_(model),
       pairs_(*model.self_contact, model.n_vertices()),
-      movers_(model.masses, model.self_contact->hanging),
-      response_(pairs_, movers_, model.self_contact->friction),
-      guard_(pairs_, movers_) {
+      movers_(all_masses(model), model.self_contact->hanging),
+      response_(pairs_, movers_),
+      guard_(pairs_, movers_),
+      bodies_time_(std::numeric_limits<double>::infinity()),
+      begins_(3, model.n_vertices() + n_in_bodies(*model.self_contact)),
+      ends_(begins_) {
+  int end = model.n_vertices();
+  for (const BodySurface& body : model.self_contact->bodies)
+    bodies_.push_back({end += body.n_vertices(), std::nullopt});
+  movers_.carry(model.n_vertices(), bodies_);
   begin_step();
 }
 
 void ClothContact::begin_step() {
-  is_pressed_.assign(static_cast<std::size_t>(model_.n_vertices()), 0);
-  is_pinned_.assign(static_cast<std::size_t>(model_.n_vertices()), 0);
+  is_pressed_.assign(static_cast<std::size_t>(ends_.cols()), 0);
+  is_pinned_.assign(static_cast<std::size_t>(ends_.cols()), 0);
+  std::fill(is_pinned_.begin() + model_.n_vertices(), is_pinned_.end(), char{1});
   for (const Pin& pin : model_.pins) is_pinned_[pin.vertex] = 1;
   movers_.prescribe(is_pinned_);
+}
+
+// A body begins a substep where the last one has left it: cloth that could not give way has held
+// it back. After a leap in time it is where its motion says.
+void ClothContact::place_bodies(double begin, double end) {
+  if (bodies_.empty()) return;
+  const bool goes_on = std::abs(begin - bodies_time_) < (end - begin) / 2;
+  bodies_time_ = end;
+  int first = model_.n_vertices();
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    const BodySurface& body = model_.self_contact->bodies[k];
+    const Pose before = body.motion.pose(begin);
+    const Pose after = body.motion.pose(end);
+    const bool stands =
+        before.rotation == after.rotation && before.translation == after.translation;
+    bodies_[k].way = stands ? std::nullopt : std::optional(after * before.inverse());
+    for (int i = 0; i < body.n_vertices(); ++i) {
+      begins_.col(first + i) = goes_on ? Vec3(ends_.col(first + i)) : before * body.places.col(i);
+      ends_.col(first + i) = after * body.places.col(i);
+    }
+    first = bodies_[k].end;
+  }
 }
 
 // Solids keep vertices out that pairs have pushed into them.
@@ -62,7 +113,7 @@ void ClothContact::note_pressed() {
 std::span<const ClothContact::Change> ClothContact::hold(double begin, double end) {
   const double h = end - begin;
   changes_.clear();
-  if (!ends_.allFinite()) return changes_;  // the step has diverged, and will be told so
+  if (!ends().allFinite()) return changes_;  // the step has diverged, and will be told so
   place_between_parents(model_.hanging, begins_);
   place_between_parents(model_.hanging, ends_);
   proposed_ = ends_;

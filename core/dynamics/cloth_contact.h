@@ -23,9 +23,11 @@ class ClothContact {
   void begin_step();
 
   /// Places where a substep starts, to be filled before it [m].
-  Positions& begins() { return begins_; }
+  PositionsRef begins() { return begins_.leftCols(n_vertices()); }
+  /// Places bodies where they begin and end a substep [s]. Call it when `begins` are filled.
+  void place_bodies(double begin, double end);
   /// Places that the substep proposes, to be filled before `hold` [m].
-  Positions& ends() { return ends_; }
+  PositionsRef ends() { return ends_.leftCols(n_vertices()); }
 
   /// Change of a vertex: to its place in `ends`, and that much faster [m/s].
   struct Change {
@@ -41,11 +43,16 @@ class ClothContact {
   std::span<const WatchedPair> pairs() const { return pairs_.pairs(); }
   const Movers& movers() const { return movers_; }
   bool is_pinned(VertexId vertex) const { return is_pinned_[vertex] != 0; }
-  double friction() const { return model_.self_contact->friction; }
+  double friction(const WatchedPair& pair) const { return pairs_.friction(pair); }
+  /// Places of the cloth, and behind them of bodies, when the substep begins and ends [m].
+  const Positions& all_begins() const { return begins_; }
+  const Positions& all_ends() const { return ends_; }
 
   /// Says for each vertex whether cloth pressed it, or the guard held it back, since the step
   /// began.
-  std::span<const char> pressed() const { return is_pressed_; }
+  std::span<const char> pressed() const {
+    return std::span(is_pressed_).first(static_cast<std::size_t>(n_vertices()));
+  }
 
   /// Sums over all substeps since this was made.
   struct Sums {
@@ -79,7 +86,9 @@ class ClothContact {
   Movers movers_;
   PairResponse response_;
   MotionGuard guard_;
-  std::vector<char> is_pinned_, is_pressed_;
+  std::vector<char> is_pinned_, is_pressed_;  // and of bodies, whose vertices come last
+  std::vector<Movers::RigidBody> bodies_;
+  double bodies_time_;  // time at which bodies are where the last substep has left them [s]
   Positions begins_, ends_, proposed_, pushed_, parted_;
   Sums sums_;
   std::vector<Change> changes_;

@@ -53,7 +53,10 @@ void Stepper::load(const State&) {}
 
 void Stepper::store(State&, SolveReport&) {}
 
-void Stepper::read_places(const State& state, Positions& places) const { places = state.positions; }
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is handed on to be written through.
+void Stepper::read_places(const State& state, PositionsRef places) const {
+  places = state.positions;
+}
 
 void Stepper::change(State& state, VertexId vertex, const Vec3& place, const Vec3& velocity) {
   state.positions.col(vertex) = place;
@@ -104,6 +107,7 @@ SolveReport Stepper::substep_in_world(State& state, double time_end, double h) {
   if (cloth_contact_) {
     const PartScope scope(observer_, Part::cloth_contact);
     read_places(state, cloth_contact_->begins());
+    cloth_contact_->place_bodies(time_end - h, time_end);
   }
   SolveReport report = substep(state, time_end, h);
   place_between_parents(model_.hanging, state);

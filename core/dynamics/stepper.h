@@ -86,7 +86,7 @@ class Stepper {
 
   /// Places of all vertices as they stand in a substep [m]; hanging ones need not be right. For
   /// steppers with a layout of their own.
-  virtual void read_places(const State& state, Positions& places) const;
+  virtual void read_places(const State& state, PositionsRef places) const;
   /// Puts a vertex that does not hang at a place [m] and makes it that much faster [m/s].
   virtual void change(State& state, VertexId vertex, const Vec3& place, const Vec3& velocity);
 

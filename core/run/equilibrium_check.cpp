@@ -188,10 +188,9 @@ void EquilibriumCheck::choose_pairs(const State& state, double time,
   pairs_.reset();
   if (cloth_contact == nullptr) return;
   pairs_.emplace(model_, *cloth_contact);
-  const Positions fall = kEquilibriumStep * model_.gravity.replicate(1, model_.n_vertices());
-  pairs_->choose({state.positions, fall}, time, kEquilibriumStep);
+  pairs_->choose_at_rest(state, time, kEquilibriumStep);
   if (pairs_->fits(matrix_)) return;
-  matrix_.join(pairs_->joins(state.positions));
+  matrix_.join(pairs_->joins());
   solver_->analyze(matrix_.lower());
   work_ += kAnalysisCost;
 }

@@ -36,8 +36,7 @@ Vec3 PairHold::Held::sum_of(const Positions& columns) const {
 }
 
 // Vertices that hang are moved by their parents; prescribed ones move for none.
-void PairHold::take_in(const PairContact& contact, const Positions& begins,
-                       const Positions& pinned_ends, double h) {
+void PairHold::take_in(const PairContact& contact, double h) {
   const WatchedPair& pair = contact_.pairs()[static_cast<std::size_t>(contact.pair)];
   Held held;
   held.pair = contact.pair;
@@ -49,7 +48,7 @@ void PairHold::take_in(const PairContact& contact, const Positions& begins,
   if (held.sticks) held.velocity -= (pair.slip - part_along(contact.normal, pair.slip)) / h;
   const auto add = [&](VertexId v, double factor) {
     if (contact_.is_pinned(v)) {
-      held.velocity -= factor / h * (pinned_ends.col(v) - begins.col(v));
+      held.velocity -= factor / h * (ends_.col(v) - begins_.col(v));
       return;
     }
     for (std::size_t k = 0; k < held.n_terms; ++k)
@@ -73,15 +72,26 @@ void PairHold::take_in(const PairContact& contact, const Positions& begins,
 }
 
 void PairHold::choose(const State& state, double time_end, double h) {
+  begins_ = contact_.all_begins();
+  ends_ = contact_.all_ends();
+  choose_from(state, time_end, h);
+}
+
+void PairHold::choose_at_rest(const State& state, double time, double h) {
+  begins_ = ends_ = contact_.all_ends();
+  choose_from({state.positions, h * model_.gravity.replicate(1, model_.n_vertices())}, time, h);
+}
+
+void PairHold::choose_from(const State& state, double time_end, double h) {
   held_.clear();
-  ends_ = state.positions + h * state.velocities;
+  begins_.leftCols(model_.n_vertices()) = state.positions;
+  ends_.leftCols(model_.n_vertices()) = state.positions + h * state.velocities;
   for (const Pin& pin : model_.pins) ends_.col(pin.vertex) = pin.position(time_end);
   const std::span<const WatchedPair> pairs = contact_.pairs();
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const WatchedPair& pair = pairs[p];
     if (pair.force.isZero(0) && least_gap(pair.sides, pair.normal, ends_) >= pair.gap) continue;
-    if (const auto contact = pair_contact(pair, static_cast<int>(p), state.positions))
-      take_in(*contact, state.positions, ends_, h);
+    if (const auto contact = pair_contact(pair, static_cast<int>(p), begins_)) take_in(*contact, h);
   }
 }
 
@@ -93,12 +103,12 @@ bool PairHold::fits(const SystemMatrix& matrix) const {
   return true;
 }
 
-std::vector<std::array<VertexId, 2>> PairHold::joins(const Positions& places) const {
+std::vector<std::array<VertexId, 2>> PairHold::joins() const {
   std::vector<std::array<VertexId, 2>> joins;
   std::vector<VertexId> carriers;
   for (const WatchedPair& pair : contact_.pairs()) {
     const bool presses = !pair.force.isZero(0);
-    if (!presses && least_gap(pair.sides, pair.normal, places) > kJoinReach * pair.gap) continue;
+    if (!presses && least_gap(pair.sides, pair.normal, begins_) > kJoinReach * pair.gap) continue;
     carriers.clear();
     for (const VertexId v : pair.sides.vertices)
       for (const VertexId carrier : contact_.movers().carriers(v))
@@ -141,13 +151,14 @@ void PairHold::add_remembered(Positions& forces) const {
 
 std::span<const PairHold::Held> PairHold::let_loose(const Positions& velocities, double h) {
   lost_.clear();
-  const double friction = contact_.friction();
   for (Held& held : held_) {
     if (!held.may_be_freed && !held.sticks) continue;
     const Vec3 force = force_of(held, velocities, h);
     const double weight = model_.gravity.norm() * held.mass;
     const double pressing = held.normal.dot(force);
     const Vec3 rubbing = force - pressing * held.normal;
+    const double friction =
+        contact_.friction(contact_.pairs()[static_cast<std::size_t>(held.pair)]);
     Held lost = held;
     if (held.may_be_freed && pressing < -kLeastPairPull * weight) {
       held.may_be_freed = held.sticks = false;

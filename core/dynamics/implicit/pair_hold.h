@@ -55,12 +55,14 @@ class PairHold {
 
   /// Chooses the pairs of the substep from `state` that press already, or are about to.
   void choose(const State& state, double time_end, double h);
+  /// Chooses those that press cloth that is at rest, or would if it fell for h [s].
+  void choose_at_rest(const State& state, double time, double h);
   std::span<const Held> held() const { return held_; }
 
   /// True where the matrix has a block for every two vertices that a pair joins.
   bool fits(const SystemMatrix& matrix) const;
-  /// Vertices that pairs join, or may soon, with these places [m], for the pattern of a matrix.
-  std::vector<std::array<VertexId, 2>> joins(const Positions& places) const;
+  /// Vertices that pairs join, or may soon, for the pattern of a matrix.
+  std::vector<std::array<VertexId, 2>> joins() const;
 
   /// Takes resistances from the matrix of a substep without holds; mass_unit turns its entries
   /// into kg.
@@ -89,12 +91,13 @@ class PairHold {
   void remember(const Positions& velocities, double h, ClothContact& contact) const;
 
  private:
-  void take_in(const PairContact& contact, const Positions& begins, const Positions& pinned_ends,
-               double h);
+  void choose_from(const State& state, double time_end, double h);
+  void take_in(const PairContact& contact, double h);
 
   const ClothModel& model_;
   const ClothContact& contact_;
-  Positions ends_;               // ways that go on as they do, pins where they will be [m]
+  Positions begins_,
+      ends_;  // of bodies too; ways that go on as they do, pins where they will be [m]
   Eigen::VectorXd resistances_;  // each vertex's [kg]
   std::vector<Held> held_, lost_;
 };

@@ -39,7 +39,7 @@ void StepperImplicit::choose_pairs(const State& state, double time_end, double h
   const PartScope scope(observer_, Part::cloth_contact);
   pair_hold_->choose(state, time_end, h);
   if (pair_hold_->fits(*matrix_)) return;
-  matrix_->join(pair_hold_->joins(state.positions));
+  matrix_->join(pair_hold_->joins());
   solve_.analyze(*matrix_);
   solve_.choose_pins(*matrix_);
 }

@@ -131,7 +131,7 @@ void StepperNewton::choose_pairs(const State& state, double time_end, double h) 
   const PartScope scope(observer_, Part::cloth_contact);
   pair_hold_->choose(state, time_end, h);
   if (pair_hold_->fits(matrix_)) return;
-  matrix_.join(pair_hold_->joins(state.positions));
+  matrix_.join(pair_hold_->joins());
   solver_->analyze(matrix_.lower());
   base_ = matrix_.lower();
   refresh();

@@ -300,8 +300,8 @@ void StepperPositionBased::copy_to(State& state, double h) {
   place_between_parents(model_.hanging, state);
 }
 
-void StepperPositionBased::read_places(const State&, Positions& places) const {
-  places.resize(3, model_.n_vertices());
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is handed on to be written through.
+void StepperPositionBased::read_places(const State&, PositionsRef places) const {
   const float* const numbers = data_.data();
   for (int i = 0; i < model_.n_vertices(); ++i) {
     const auto slot = static_cast<std::size_t>(slot_of(VertexId(i)));

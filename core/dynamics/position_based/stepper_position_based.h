@@ -37,7 +37,7 @@ class StepperPositionBased final : public Stepper {
   void load(const State& state) override;
   SolveReport substep(State& state, double time_end, double h) override;
   void store(State& state, SolveReport& report) override;
-  void read_places(const State& state, Positions& places) const override;
+  void read_places(const State& state, PositionsRef places) const override;
   void change(State& state, VertexId vertex, const Vec3& place, const Vec3& velocity) override;
 
  private:
