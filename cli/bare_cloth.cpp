@@ -22,7 +22,7 @@ ClothModel bare(ClothModel whole) {
 
 bool has_more_than_springs(const ClothModel& model) {
   return !model.is_plain_spring_lattice() || !model.bends.empty() || !model.hanging.empty() ||
-         model.air || model.contact;
+         model.air || model.contact || model.self_contact;
 }
 
 }  // namespace

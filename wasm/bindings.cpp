@@ -25,6 +25,7 @@
 #include "core/scene/format/method_section.h"
 #include "core/scene/format/scene_file.h"
 #include "core/scene/format/solid_section.h"
+#include "core/scene/format/surface_section.h"
 #include "wasm/arrays.h"
 #include "wasm/envelope.h"
 #include "wasm/page_run.h"
@@ -250,7 +251,31 @@ class Simulation {
         entry.set("shape", std::string(pleat::word_for(shape)));
         list.call<void>("push", entry);
       }
+      int n_surfaces = 0;
+      for (const pleat::SurfaceSolid& solid : running().scene().surface_solids) {
+        const pleat::Pose pose = solid.motion.pose(running().time());
+        val entry = val::object();
+        if (const auto* box = std::get_if<pleat::BoxSolid>(&solid.shape)) {
+          entry = json_value(pleat::json_shape({placed(*box, pose), {}}).dump());
+        } else {
+          entry.set("offset_m", json_value(pleat::json_vec3(pose.translation).dump()));
+          entry.set("surface", n_surfaces++);
+        }
+        entry.set("shape", std::string(pleat::word_for(solid)));
+        list.call<void>("push", entry);
+      }
       envelope.set("colliders", list);
+    });
+  }
+
+  /// Meshes among the colliders, at time 0.
+  std::string surfaces() {
+    return guarded([&](val& envelope) {
+      val list = val::array();
+      for (const pleat::SurfaceSolid& solid : running().scene().surface_solids)
+        if (std::holds_alternative<pleat::MeshSolid>(solid.shape))
+          list.call<void>("push", json_value(pleat::json_shape(solid).dump()));
+      envelope.set("surfaces", list);
     });
   }
 
@@ -467,6 +492,7 @@ EMSCRIPTEN_BINDINGS(pleat) {
       .function("numbers", &Simulation::numbers)
       .function("setReference", &Simulation::set_reference)
       .function("colliders", &Simulation::colliders)
+      .function("surfaces", &Simulation::surfaces)
       .function("grab", &Simulation::grab)
       .function("moveGrab", &Simulation::move_grab)
       .function("releaseGrab", &Simulation::release_grab)

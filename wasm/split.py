@@ -8,7 +8,8 @@ FIRST   a module of the same objects linked with the bindings of a first visit a
 
 A function of WHOLE whose name FIRST lacks goes to the rest, but for what initialises the module. Where WHOLE has
 several of one name, all stay. What CHOLMOD does with matrices that are complex or not symmetric goes there too: core
-has none of them. So does self-contact, which few scenes ask for: a worker joins the rest before it makes one of them.
+has none of them. So do self-contact and solids that are met by their surfaces, which few scenes ask for: a worker joins
+the rest before it makes one of them.
 """
 import re
 import subprocess
@@ -23,11 +24,12 @@ SMALL = ["-Oz", "--converge", "--low-memory-unused", "--zero-filled-memory"]
 # Parts of CHOLMOD for matrices that are complex, and for such as are not symmetric.
 OTHER_MATRICES = re.compile(r"[cz]t?_(change|cholmod|ldl|ll|simplicial)_|"
                             r"([rp]_)?cholmod_transpose_unsym$|cholmod_(aat|colamd)$|colamd")
-# What is only called where a scene asks for self-contact, as Binaryen writes names. Whether there is any is asked of
-# an optional in every scene.
+# What is only called where a scene asks for self-contact, boxes or meshes, as Binaryen writes names. Whether there is
+# any is asked of an optional in every scene.
 SELF_CONTACT = re.compile(r"(?!.*__optional).*pleat::(ClothContact|MotionGuard|Movers|WatchedPair|SurfacePair|NearPairs|"
-                          r"Corridors|MovingBox|PairResponse)|"
-                          r"pleat::(separator|separates|closest_points|pair_way|json_cloth_contact)\\28|"
+                          r"Corridors|MovingBox|PairResponse|SignedDistance|BodyDepth)|"
+                          r"pleat::(separator|separates|closest_points|pair_way|json_cloth_contact|"
+                          r"crossings|own_crossings|cloth_in_bodies|box_body|enclosed_volume|read_surface)\\28|"
                           r"pleat::\\28anonymous\\20namespace\\29::(part_separator|hull_normal|nearest_with|plane_point)\\28")
 STRIPPED = ["--post-emscripten", "--strip-debug", "--strip-producers"]
 

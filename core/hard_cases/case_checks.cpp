@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/check.h"
+#include "core/contact/body_depth.h"
 #include "core/model/elasticity.h"
 #include "core/model/momentum.h"
 #include "core/model/stretch.h"
@@ -182,8 +183,13 @@ double largest_stretch(const Simulation& simulation) {
 }
 
 double depth_in_solids(const Simulation& simulation) {
-  const auto& contact = simulation.model().contact;
-  return contact ? contact->penetration(simulation.state().positions, simulation.time()).depth : 0;
+  const ClothModel& model = simulation.model();
+  const Positions& now = simulation.state().positions;
+  double depth = model.contact ? model.contact->penetration(now, simulation.time()).depth : 0;
+  if (model.meets_bodies())
+    depth = std::max(
+        depth, BodyDepth(model.self_contact->bodies).at(now, simulation.time()).depth);
+  return depth;
 }
 
 /// Largest |now - first| / scale of a vector.

@@ -66,6 +66,8 @@ struct ClothModel {
     for (const Pin& pin : pins) is_pinned[pin.vertex] = true;
     return is_pinned;
   }
+  /// True where bodies are in its way that are met by their surfaces.
+  bool meets_bodies() const { return self_contact && !self_contact->bodies.empty(); }
   bool has_fitted_bending() const { return fitted_bending.rows() > 0; }
   /// True when springs and quadratic bending are all that holds it together: what position-based
   /// and projective steps are made for.

@@ -22,7 +22,8 @@ const SheetShape& swinging_sheet(const Scene& scene) {
   if (cloth == nullptr) refuse("/cloth", "a sheet");
   if (cloth->initial_velocity != Vec3::Zero()) refuse("/cloth/sheet", "a sheet released at rest");
   if (scene.air) refuse("/world/air", "no air");
-  if (!scene.colliders.empty()) refuse("/world/colliders", "no solids");
+  if (!scene.colliders.empty() || !scene.surface_solids.empty())
+    refuse("/world/colliders", "no solids");
   const auto is_upper_edge = [](const PinRule& rule) {
     const auto* part = std::get_if<std::string>(&rule.where);
     return part != nullptr && *part == "upper_edge" && rule.motion.kind == Motion::Kind::hold;

@@ -28,7 +28,8 @@ Vec3 down(const Scene& scene) { return scene.gravity.normalized(); }
 void check_surroundings(const Scene& scene, const ClothModel& model) {
   if (scene.gravity.isZero()) refuse("/world/gravity_m_per_s2", "a weight");
   if (scene.air) refuse("/world/air", "no air");
-  if (!scene.colliders.empty()) refuse("/world/colliders", "no solids");
+  if (!scene.colliders.empty() || !scene.surface_solids.empty())
+    refuse("/world/colliders", "no solids");
   for (const Pin& pin : model.pins)
     if (pin.motion.kind != Motion::Kind::hold) refuse("/pins", "pins that hold still");
 }

@@ -26,11 +26,14 @@ bool is_outside_of_solids(const Simulation& simulation) {
 bool is_left_alone(const Simulation& simulation) {
   const ClothModel& model = simulation.model();
   const auto& solids = simulation.scene().colliders;
+  const auto& bodies = simulation.scene().surface_solids;
   return !(model.air && model.air->has_wind()) &&
          std::all_of(model.pins.begin(), model.pins.end(),
                      [](const Pin& pin) { return stands(pin.motion); }) &&
          std::all_of(solids.begin(), solids.end(),
                      [](const Collider& solid) { return stands(solid.motion); }) &&
+         std::all_of(bodies.begin(), bodies.end(),
+                     [](const SurfaceSolid& body) { return stands(body.motion); }) &&
          is_outside_of_solids(simulation);
 }
 

@@ -24,6 +24,10 @@ Vec3 normal_at(const Collider& collider, const Vec3& place, double time) {
 }
 
 void check_scene(const Scene& scene) {
+  if (!scene.surface_solids.empty())
+    throw InputError("/world/colliders",
+                     "expected planes, spheres and capsules alone, as boxes and meshes have one "
+                     "response, got others");
   if (scene.colliders.empty())
     throw InputError("/world/colliders", "expected a solid that the cloth falls on, got none");
   for (std::size_t k = 0; k < scene.colliders.size(); ++k)

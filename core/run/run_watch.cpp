@@ -117,7 +117,7 @@ Vec3 up_of(const ClothModel& model) {
 bool has_known_load(const Simulation& simulation) {
   const ClothModel& model = simulation.model();
   return simulation.mesh() && !model.springs.empty() && !model.pins.empty() && !model.contact &&
-         !simulation.scene().model.tearing;
+         !model.meets_bodies() && !simulation.scene().model.tearing;
 }
 
 /// Way that cloth falls at most until its pins hold it [m], of a sample.
@@ -174,6 +174,12 @@ double driven_speed(const Simulation& simulation) {
   for (const Collider& collider : simulation.scene().colliders)
     if (collider.motion.kind != Motion::Kind::hold)
       speed = std::max(speed, fastest_point(collider, simulation));
+  if (simulation.model().meets_bodies())
+    for (const BodySurface& body : simulation.model().self_contact->bodies) {
+      if (body.motion.kind == Motion::Kind::hold) continue;
+      for (const auto& place : body.places.colwise())
+        speed = std::max(speed, body.motion.velocity(place, simulation.time()).norm());
+    }
   return speed;
 }
 

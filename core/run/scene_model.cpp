@@ -101,6 +101,21 @@ Eigen::VectorXd face_radii(const Scene& scene, const RestCloth& cloth, const Clo
   return radii;
 }
 
+/// Bodies hold cloth off by half of its thickness, as other solids do; cloth that has none, or
+/// hardly any, by as much as would be too little to see.
+SelfContact surfaces_in_contact(const Scene& scene, const RestCloth& cloth,
+                                const ClothModel& model) {
+  const SelfContactOptions own = scene.self_contact.value_or(SelfContactOptions{});
+  SelfContact contact{cloth.mesh.triangles, model.hanging, cloth.mesh.rest_positions,
+                      own.thickness.value_or(scene.fabric.thickness),
+                      own.friction.value_or(scene.fabric.friction_fabric)};
+  for (const SurfaceSolid& solid : scene.surface_solids) contact.bodies.push_back(solid.surface());
+  constexpr double kLeastGap = 5e-5;  // [m]; without a gap no side of a surface is to be told
+  contact.body_gap = std::max(scene.fabric.thickness / 2, kLeastGap);
+  contact.is_loose = !scene.self_contact;
+  return contact;
+}
+
 }  // namespace
 
 State scene_state(const RestCloth& cloth) { return {cloth.start, cloth.start_velocities}; }
@@ -124,11 +139,8 @@ ClothModel scene_model(const Scene& scene, const RestCloth& cloth) {
                                  scene.contact_response};
     model.contact.emplace(std::move(colliders), options);
   }
-  if (scene.self_contact && !cloth.mesh.triangles.empty())
-    model.self_contact =
-        SelfContact{cloth.mesh.triangles, model.hanging, cloth.mesh.rest_positions,
-                    scene.self_contact->thickness.value_or(scene.fabric.thickness),
-                    scene.self_contact->friction.value_or(scene.fabric.friction_fabric)};
+  if ((scene.self_contact || !scene.surface_solids.empty()) && !cloth.mesh.triangles.empty())
+    model.self_contact = surfaces_in_contact(scene, cloth, model);
   if (scene.model.strain_limit)
     model.strain_limit = StrainLimit{*scene.model.strain_limit,
                                      in_lines(gauge_edges(cloth), cloth.mesh.rest_positions)};

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/check.h"
+#include "core/contact/body_start.h"
 #include "core/dynamics/explicit/stability_bound.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/refinement/mesh_match.h"
@@ -19,6 +20,7 @@ Simulation::Simulation(const Scene& scene)
       gauge_(gauge_edges(cloth_)) {
   start();
   if (scene.start) expect_outside_of_solids();
+  expect_outside_of_bodies();
 }
 
 /// A start is of cloth that solids have held; sampled on a coarser mesh it may be a little inside.
@@ -31,6 +33,15 @@ void Simulation::expect_outside_of_solids() const {
                                  std::to_string(found.deepest.value) + " " +
                                  std::to_string(std::lround(1e3 * found.depth)) +
                                  " mm inside of one");
+}
+
+/// Bodies are met by their surfaces, which have to have the cloth on their outside.
+void Simulation::expect_outside_of_bodies() const {
+  if (!model_.meets_bodies()) return;
+  const std::string found = cloth_in_bodies(*model_.self_contact, state_.positions, 0);
+  if (found.empty()) return;
+  throw InputError(scene_.start ? "/start" : "/world/colliders",
+                   "expected cloth that starts off boxes and meshes, got " + found);
 }
 
 /// A new stepper, so that nothing of an earlier run (a solver's first guess, say) is left.
@@ -112,6 +123,7 @@ void Simulation::start_from(const PositionsView& positions) {
   start_positions_ = positions;
   for (Pin& pin : model_.pins) pin.place = positions.col(pin.vertex);
   start();
+  expect_outside_of_bodies();
 }
 
 Positions Simulation::contact_accelerations() const {

@@ -28,7 +28,8 @@ class Simulation final : public MovingCloth {
   void reset();
 
   /// Starts from these places at rest [m], one column a vertex, now and at each reset. Pins are
-  /// where that puts their vertices. Throws InputError unless there are as many and all are finite.
+  /// where that puts their vertices. Throws InputError unless there are as many, all are finite and
+  /// off bodies.
   void start_from(const PositionsView& positions);
 
   /// Goes on from this state at a time of the scene's own [s]: pins and solids are where they are
@@ -102,6 +103,7 @@ class Simulation final : public MovingCloth {
 
  private:
   void expect_outside_of_solids() const;
+  void expect_outside_of_bodies() const;
   struct Grab {
     VertexId vertex;
     std::size_t first_pin;  // its pins are the last of model_.pins

@@ -13,6 +13,7 @@
 #include "core/refinement/refinement_plan.h"
 #include "core/scene/scene_body.h"
 #include "core/scene/sheet_cloth.h"
+#include "core/scene/surface_solid.h"
 
 namespace pleat {
 
@@ -101,6 +102,7 @@ struct Scene {
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
   std::optional<AirOptions> air;
   std::vector<Collider> colliders;
+  std::vector<SurfaceSolid> surface_solids;  ///< colliders that are met by their surfaces
   ContactResponse contact_response = ContactResponse::resting;  ///< response of colliders and body
   /// Contact of the cloth with itself; without it, it passes through.
   std::optional<SelfContactOptions> self_contact;

@@ -7,6 +7,7 @@
 #include "core/refinement/mesh_match.h"
 #include "core/scene/format/scene_file.h"
 #include "core/scene/format/solid_section.h"
+#include "core/scene/format/surface_section.h"
 #include "native-tests/scene/schema_walk.h"
 #include "native-tests/support/assets.h"
 #include "native-tests/support/scene_schema.h"
@@ -19,7 +20,7 @@ using nlohmann::json;
 // Scenes of required keys alone, so that everything else in the written scene is a default.
 const char* const kShortScenes[] = {
     R"({"cloth": {"sheet": {}}, "world": {"air": {},
-        "colliders": [{"plane": {}}, {"sphere": {}}, {"capsule": {}}]},
+        "colliders": [{"plane": {}}, {"sphere": {}}, {"capsule": {}}, {"box": {"size_m": [1, 1, 1]}}]},
         "pins": [{"part": "upper_left", "motion": {"kind": "ease", "offset_m": [1, 0, 0], "end_s": 1}},
                  {"part": "lower_left", "motion": {"kind": "move", "offset_m": [1, 0, 0], "end_s": 1}},
                  {"vertices": [1], "motion": {"kind": "oscillate", "offset_m": [1, 0, 0], "frequency_hz": 1}},
@@ -65,6 +66,9 @@ const char* const kFurtherScenes[] = {
     R"({"cloth": {"sheet": {}}, "method": {"stepper": "newton", "solver": "cg",
         "preconditioner": "multigrid"}})",
     R"({"cloth": {"sheet": {}}, "world": {"contact_response": "uniform"}})",
+    R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"mesh": {"obj": "pyramid.obj"}},
+        {"mesh": {"positions_m": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+         "triangles": [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]}}]}})",
     R"({"cloth": {"sheet": {}}, "world": {"self_contact": true}})",
     R"({"cloth": {"sheet": {}}, "world": {"self_contact": {"friction": 0.5, "thickness_m": 1e-3}}})",
     R"({"cloth": {"sheet": {}}, "model": {"elasticity": "membrane", "stiffening_strain": 0.06}})",
@@ -101,6 +105,8 @@ json written(const std::string& text) {
   const FileSource files = [](const std::string& name) -> std::string {
     if (name == "turn.json") return repository_file("assets/motions/turn.json");
     if (name == "plan.json") return plan_of_unit_sheet();
+    if (name == "pyramid.obj")
+      return "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
     return "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 2 0\nvt 0 2\nf 1/1 2/2 3/3\n";
   };
   return json::parse(write_scene(read_scene(text, fabric_library(), files)));
@@ -181,7 +187,9 @@ TEST_CASE("scene schema: unknown keys, wrong types and values out of range are n
 }
 
 TEST_CASE("scene schema: every solid that a scene can name is in it", "[scene]") {
-  for (const char* word : solid_words()) {
+  std::vector<const char*> words = solid_words();
+  for (const char* word : surface_words()) words.push_back(word);
+  for (const char* word : words) {
     CAPTURE(word);
     CHECK(schema()["$defs"]["collider"]["properties"].contains(word));
   }

@@ -43,7 +43,7 @@ double diagonal_norm(const SparseMatrix& lower) {
 
 StepperNewton::StepperNewton(ClothModel& model, const MethodOptions& options)
     : Stepper(model, options, options.substeps, ContactForces::remembered), matrix_(model) {
-  if (is_at_rest() && model.contact)
+  if (is_at_rest() && (model.contact || model.meets_bodies()))
     throw InputError("/method/rule",
                      "expected backward_euler or midpoint beside solids, got equilibrium");
   if (is_at_rest() && model.self_contact)

@@ -97,7 +97,7 @@ Scene read_scene(const JsonReader& root, const FabricLibrary& fabrics, const Fil
   if (const auto at = root.find("model")) read_model(*at, scene);
   if (const auto at = root.find("refinement")) read_refinement(*at, files, scene);
   if (const auto at = root.find("pins")) read_pins(*at, scene);
-  if (const auto at = root.find("world")) read_world(*at, scene);
+  if (const auto at = root.find("world")) read_world(*at, files, scene);
   if (const auto at = root.find("method")) scene.method = read_method(*at, tables.steppers);
   if (const auto at = root.find("duration_s")) scene.duration = at->number(kPositive);
   if (const auto at = root.find("record")) read_record(*at, scene.record);

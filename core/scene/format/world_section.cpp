@@ -5,6 +5,7 @@
 #include "core/base/check.h"
 #include "core/scene/format/bone_word.h"
 #include "core/scene/format/solid_section.h"
+#include "core/scene/format/surface_section.h"
 #include "core/scene/rest_cloth.h"
 #include "core/scene/vertex_arrays.h"
 #include "core/scene/vertex_place.h"
@@ -131,23 +132,39 @@ PinRule read_pin(const JsonReader& reader, const Scene& scene) {
   return pin;
 }
 
-Collider read_collider(const JsonReader& reader, double default_friction) {
-  std::vector<const char*> keys = solid_words();
-  keys.insert(keys.end(), {"motion", "friction"});
-  reader.allow_keys(keys);
-  Collider collider;
-  collider.shape = read_solid(reader);
-  if (const auto at = reader.find("motion")) collider.motion = read_motion(*at);
-  collider.friction = default_friction;
-  if (const auto at = reader.find("friction")) collider.friction = at->number(kNotNegative);
-  return collider;
+/// Reads keys that solids of all kinds have.
+template <class Solid>
+Solid with_surroundings(const JsonReader& reader, const Scene& scene, Solid solid) {
+  if (const auto at = reader.find("motion")) solid.motion = read_motion(*at);
+  solid.friction = scene.fabric.friction_solid;
+  if (const auto at = reader.find("friction")) solid.friction = at->number(kNotNegative);
+  return solid;
 }
 
-Json json_collider(const Collider& collider) {
+void read_collider(const JsonReader& reader, const FileSource& files, Scene& scene) {
+  std::vector<const char*> keys = solid_words();
+  const std::size_t n_solids = keys.size();
+  for (const char* word : surface_words()) keys.push_back(word);
+  const std::vector<const char*> words = keys;
+  keys.insert(keys.end(), {"motion", "friction"});
+  reader.allow_keys(keys);
+  const std::size_t found = reader.only_one_of(words);
+  if (found < n_solids) {
+    scene.colliders.push_back(with_surroundings(reader, scene, Collider{read_solid(reader), {}}));
+    return;
+  }
+  if (!scene.cloth->is_surface())
+    reader.at(words[found]).fail("a plane, a sphere or a capsule, as particles have no faces");
+  scene.surface_solids.push_back(
+      with_surroundings(reader, scene, read_surface(reader, words[found], files)));
+}
+
+template <class Solid>
+Json json_collider(const char* word, Json shape, const Solid& solid) {
   Json json;
-  json[word_for(collider.shape)] = json_solid(collider.shape);
-  json["motion"] = json_motion(collider.motion);
-  json["friction"] = collider.friction;
+  json[word] = std::move(shape);
+  json["motion"] = json_motion(solid.motion);
+  json["friction"] = solid.friction;
   return json;
 }
 
@@ -242,13 +259,12 @@ Json json_pins(const Scene& scene) {
   return json;
 }
 
-void read_world(const JsonReader& reader, Scene& scene) {
+void read_world(const JsonReader& reader, const FileSource& files, Scene& scene) {
   reader.allow_keys({"gravity_m_per_s2", "air", "colliders", "contact_response", "self_contact"});
   if (const auto at = reader.find("gravity_m_per_s2")) scene.gravity = at->vec3();
   if (const auto at = reader.find("air")) scene.air = read_air(*at);
   if (const auto at = reader.find("colliders"))
-    for (const JsonReader& collider : at->elements())
-      scene.colliders.push_back(read_collider(collider, scene.fabric.friction_solid));
+    for (const JsonReader& collider : at->elements()) read_collider(collider, files, scene);
   if (const auto at = reader.find("contact_response"))
     scene.contact_response = at->word(kContactResponses);
   if (const auto at = reader.find("self_contact")) {
@@ -269,7 +285,10 @@ Json json_world(const Scene& scene) {
   }
   json["colliders"] = Json::array();
   for (const Collider& collider : scene.colliders)
-    json["colliders"].push_back(json_collider(collider));
+    json["colliders"].push_back(
+        json_collider(word_for(collider.shape), json_solid(collider.shape), collider));
+  for (const SurfaceSolid& solid : scene.surface_solids)
+    json["colliders"].push_back(json_collider(word_for(solid), json_shape(solid), solid));
   if (scene.contact_response != ContactResponse::resting)
     json["contact_response"] = word_for(kContactResponses, scene.contact_response);
   if (scene.self_contact) {

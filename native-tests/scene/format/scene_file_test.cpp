@@ -370,9 +370,49 @@ const BadScene kBadScenes[] = {
     {R"({"cloth": {"sheet": {}}, "world": {"air": {"density_kg_per_m3": 0}}})",
      "/world/air/density_kg_per_m3", "expected a number > 0.0, got 0"},
     {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"friction": 1}]}})", "/world/colliders/0",
-     R"(expected one of the keys "plane", "sphere", "capsule", got an object)"},
+     R"(expected one of the keys "plane", "sphere", "capsule", "box", "mesh", got an object)"},
     {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"sphere": {"radius_m": 0}}]}})",
      "/world/colliders/0/sphere/radius_m", "expected a number > 0.0, got 0"},
+    {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"box": {}}]}})", "/world/colliders/0/box",
+     R"(expected the key "size_m", got an empty object)"},
+    {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"box": {"size_m": [1, 0, 1]}}]}})",
+     "/world/colliders/0/box/size_m/1", "expected a number > 0.0, got 0"},
+    {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"box": {"size_m": [1, 1, 1],
+         "y_direction": [1, 0, 0]}}]}})",
+     "/world/colliders/0/box/y_direction",
+     "expected a direction perpendicular to x_direction, got one at 0.0 degrees"},
+    {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"mesh": {"obj": "a.obj"}}]}})",
+     "/world/colliders/0/mesh/obj",
+     R"(expected a mesh written out in the scene, as no files can be read here, got "a.obj")"},
+    {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"mesh": {
+         "positions_m": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], "triangles": []}}]}})",
+     "/world/colliders/0/mesh/triangles",
+     "expected at least one triangle, got an array of 0 values"},
+    {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"mesh": {
+         "positions_m": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+         "triangles": [[0, 2, 1], [0, 1, 3], [1, 2, 3]]}}]}})",
+     "/world/colliders/0/mesh",
+     "expected a closed surface, got one triangle alone at the edge from vertex 0 to 2, at (0, "
+     "0.5, "
+     "0) m"},
+    {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"mesh": {
+         "positions_m": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+         "triangles": [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 2, 3]]}}]}})",
+     "/world/colliders/0/mesh",
+     "expected neighbours wound alike, got two triangles that both go from vertex 0 to 2"},
+    {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"mesh": {
+         "positions_m": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1],
+                         [0.2, 0.2, -1], [1.2, 0.2, -1], [0.2, 1.2, -1], [0.2, 0.2, 2]],
+         "triangles": [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2],
+                       [4, 6, 5], [4, 5, 7], [5, 6, 7], [4, 7, 6]]}}]}})",
+     "/world/colliders/0/mesh",
+     "expected a surface that does not pass through itself, got 4 crossings, the first of the edge "
+     "from vertex 1 to 2 at (0.8, 0.2, 0) m"},
+    {R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0]], "masses_kg": [1, 1],
+         "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 1}]}},
+         "world": {"colliders": [{"box": {"size_m": [1, 1, 1]}}]}})",
+     "/world/colliders/0/box",
+     R"(expected a plane, a sphere or a capsule, as particles have no faces, got an object)"},
     {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"capsule": {"radius_m": -1}}]}})",
      "/world/colliders/0/capsule/radius_m", "expected a number > 0.0, got -1"},
     {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"plane": {"normal": [0, 0, 0]}}]}})",
@@ -469,7 +509,12 @@ const char* const kRichScene = R"({
                           {"plane": {"point_m": [0, -9, 0]},
                            "motion": {"kind": "turn", "point_m": [0, -9.1, 0.1], "axis": [1, 0, 2],
                                       "rad_per_s": -0.3, "begin_s": 0.2, "end_s": 1.3}},
-                          {"capsule": {"a_m": [0, 0.2, 0], "b_m": [0.3, 0.2, 0.1], "radius_m": 0.07}}]},
+                          {"capsule": {"a_m": [0, 0.2, 0], "b_m": [0.3, 0.2, 0.1], "radius_m": 0.07}},
+                          {"box": {"centre_m": [3, 0, 0], "size_m": [0.1, 0.2, 0.3], "x_direction": [0, 2, 0],
+                                   "y_direction": [-3, 0, 0]}, "friction": 0.9},
+                          {"mesh": {"positions_m": [[0, 0, 7], [1, 0, 7], [0, 1, 7], [0, 0, 8]],
+                                    "triangles": [[0, 1, 2], [0, 3, 1], [1, 3, 2], [0, 2, 3]]},
+                           "motion": {"kind": "move", "offset_m": [0, 0, 0.3], "end_s": 1}}]},
   "method": {"stepper": "explicit", "step_s": 0.003, "substeps": "stable"},
   "duration_s": 1.7, "record": {"every_s": 0.06, "format": "binary"}})";
 
@@ -562,6 +607,17 @@ TEST_CASE("scene file: every number of a rich scene arrives in SI units", "[scen
   CHECK(capsule.centre_b == Vec3(0.3, 0.2, 0.1));
   CHECK(capsule.radius_a == 0.07);
   CHECK(capsule.radius_b == 0.07);
+  REQUIRE(scene.surface_solids.size() == 2);
+  const auto& box = std::get<BoxSolid>(scene.surface_solids[0].shape);
+  CHECK(box.centre == Vec3(3, 0, 0));
+  CHECK(box.size == Vec3(0.1, 0.2, 0.3));
+  CHECK(box.x_direction == Vec3(0, 1, 0));
+  CHECK(box.y_direction == Vec3(-1, 0, 0));
+  CHECK(scene.surface_solids[0].friction == 0.9);
+  const auto& mesh = std::get<MeshSolid>(scene.surface_solids[1].shape);
+  CHECK(mesh.places.col(3) == Vec3(0, 0, 8));
+  CHECK(scene.surface_solids[1].motion.offset == Vec3(0, 0, 0.3));
+  CHECK(enclosed_volume(mesh.places, mesh.triangles) == Approx(1.0 / 6));
   CHECK(scene.method.stepper == &steppers::kExplicitEuler);
   CHECK(scene.method.step == 0.003);
   CHECK(scene.method.substeps == 0);

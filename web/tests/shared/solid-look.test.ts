@@ -6,21 +6,50 @@ import { bodiesOf, lookOf } from '../../src/shared/stage/solid-look';
 
 const { motion, friction, ...words } = schema.$defs.collider.properties;
 
-/** A solid as the module tells it, with the numbers that a scene leaves out. */
-function usualSolid(word: string, numbers: Record<string, { default?: unknown }>): Collider {
-  const told = Object.entries(numbers).map(([key, number]) => [key, number.default]);
-  return { shape: word, ...Object.fromEntries(told) };
-}
+const PYRAMID = {
+  id: 'pyramid',
+  positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]),
+  triangles: new Uint32Array([0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2]),
+};
+
+/** One of each, as the module tells them. */
+const SOLIDS: Collider[] = [
+  { shape: 'plane', point_m: [0, 0, 0], normal: [0, 1, 0] },
+  { shape: 'sphere', centre_m: [0, 0, 0], radius_m: 1 },
+  { shape: 'capsule', a_m: [0, 0, 0], b_m: [0, 1, 0], radius_m: 1 },
+  {
+    shape: 'box',
+    centre_m: [1, 0, 0],
+    size_m: [1, 2, 4],
+    x_direction: [0, 1, 0],
+    y_direction: [-1, 0, 0],
+  },
+  { shape: 'mesh', offset_m: [0, 5, 0], surface: PYRAMID },
+];
 
 describe('the look of solids', () => {
   it('knows every solid that a scene can name', () => {
     expect(motion && friction).toBeDefined();
-    expect(Object.keys(words).length).toBeGreaterThan(1);
-    for (const [word, { properties }] of Object.entries(words)) {
-      const look = lookOf(usualSolid(word, properties));
-      expect(look, word).toBeDefined();
-      if (look.body) expect(look.body.box.isEmpty(), word).toBe(false);
+    expect(SOLIDS.map(({ shape }) => shape)).toEqual(Object.keys(words));
+    for (const solid of SOLIDS) {
+      const { body } = lookOf(solid);
+      expect(body === null, solid.shape).toBe(solid.shape === 'plane');
+      expect(body?.box.isEmpty() ?? false, solid.shape).toBe(false);
     }
+  });
+
+  it('draws boxes and meshes where they are, and turned as they are', () => {
+    const [box, mesh] = bodiesOf(SOLIDS.slice(3));
+    expect(box?.box.min.toArray()).toEqual([0, -0.5, -2]);
+    expect(box?.box.max.toArray()).toEqual([2, 0.5, 2]);
+    const drawn = box?.build();
+    drawn?.computeBoundingBox();
+    expect(drawn?.boundingBox?.max.toArray().map((x) => x.toFixed(4))).toEqual(
+      [0.985, 0.4925, 1.97].map((x) => x.toFixed(4)),
+    );
+    expect(mesh?.centre).toEqual([0, 5, 0]);
+    expect(mesh?.box.max.toArray()).toEqual([1, 6, 1]);
+    expect(mesh?.build().getAttribute('position').count).toBe(12);
   });
 
   it('keeps a sphere in view and draws it a little smaller', () => {

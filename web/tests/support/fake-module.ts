@@ -223,6 +223,7 @@ class FakeSimulation implements SimulationHandle {
   }
 
   colliders = () => ok({ colliders: [{ shape: 'sphere', centre_m: [0, 0, 0], radius_m: 0.2 }] });
+  surfaces = () => ok({ surfaces: [] });
 
   private ledgerFrom: number | null = null; // the step at which the account began
   openLedger = () => {

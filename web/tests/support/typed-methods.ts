@@ -136,6 +136,7 @@ export const TYPED_METHODS: Record<keyof Modules, string[]> = {
     levelVertices: true,
     levelEdges: true,
     colliders: true,
+    surfaces: true,
     grab: true,
     moveGrab: true,
     releaseGrab: true,

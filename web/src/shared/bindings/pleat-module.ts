@@ -209,7 +209,9 @@ export interface SimulationHandle {
   levelEdges(level: number): Uint32Array;
   /** Compares with a reference from now on, whenever the loaded scene is what it is of. */
   setReference(bytes: Uint8Array): string;
+  /** Solids where they are now; a mesh by its offset [m] and its number among `surfaces`. */
   colliders(): string;
+  surfaces(): string;
   grab(vertex: number): string;
   /** Target of the held patch [m]. */
   moveGrab(x: number, y: number, z: number): void;

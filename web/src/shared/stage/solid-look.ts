@@ -1,8 +1,11 @@
 // How stages show solids: the one place that tells them apart.
 import {
   Box3,
-  type BufferGeometry,
+  BoxGeometry,
+  BufferAttribute,
+  BufferGeometry,
   CapsuleGeometry,
+  Matrix4,
   Quaternion,
   SphereGeometry,
   Vector3,
@@ -40,6 +43,16 @@ function capsuleGeometry(axis: Vector3, radius: number): BufferGeometry {
   return new CapsuleGeometry(radius, length, 20, 64).applyQuaternion(turn);
 }
 
+/** Each triangle has a normal of its own: edges stay sharp. */
+function meshGeometry(positions: Float32Array, triangles: Uint32Array): BufferGeometry {
+  const indexed = new BufferGeometry();
+  indexed.setAttribute('position', new BufferAttribute(positions, 3));
+  indexed.setIndex(new BufferAttribute(triangles, 1));
+  const geometry = indexed.toNonIndexed();
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
 export function lookOf(solid: Collider): SolidLook {
   switch (solid.shape) {
     case 'plane':
@@ -54,6 +67,26 @@ export function lookOf(solid: Collider): SolidLook {
         build: () => new SphereGeometry(DRAWN * solid.radius_m, 64, 40),
       };
       return { body, floor: null };
+    }
+    case 'box': {
+      const x = new Vector3(...solid.x_direction);
+      const y = new Vector3(...solid.y_direction);
+      const turn = new Matrix4().makeBasis(x, y, x.clone().cross(y));
+      const size = new Vector3(...solid.size_m).multiplyScalar(DRAWN);
+      const told = [x, y].flatMap((axis) => axis.toArray().map((part) => Math.round(1e6 * part)));
+      const build = () => new BoxGeometry(...size.toArray()).applyMatrix4(turn);
+      const box = new Box3()
+        .setFromCenterAndSize(new Vector3(), new Vector3(...solid.size_m))
+        .applyMatrix4(turn)
+        .translate(new Vector3(...solid.centre_m));
+      const body = { form: `box ${solid.size_m} ${told}`, centre: solid.centre_m, box, build };
+      return { body, floor: null };
+    }
+    case 'mesh': {
+      const { id, positions, triangles } = solid.surface;
+      const box = new Box3().setFromArray(positions).translate(new Vector3(...solid.offset_m));
+      const build = () => meshGeometry(positions, triangles);
+      return { body: { form: `mesh ${id}`, centre: solid.offset_m, box, build }, floor: null };
     }
     case 'capsule': {
       const [a, b] = [new Vector3(...solid.a_m), new Vector3(...solid.b_m)];

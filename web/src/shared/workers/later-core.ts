@@ -15,12 +15,15 @@ export function takeModule(made: Joinable): void {
   joined = null;
 }
 
-/** True where a text in the message, however deep, names self-contact. */
-export function namesSelfContact(part: unknown): boolean {
-  if (typeof part === 'string') return part.includes('"self_contact"');
+/** Self-contact, a box among colliders, whose size has to be there, or a mesh among them. */
+const LATER = /"self_contact"|"size_m"|"colliders".*"mesh"/s;
+
+/** True where a text in the message, however deep, names what only the rest of the core can do. */
+export function namesLater(part: unknown): boolean {
+  if (typeof part === 'string') return LATER.test(part);
   if (typeof part !== 'object' || part === null) return false;
   if (part instanceof ArrayBuffer || ArrayBuffer.isView(part)) return false;
-  return Object.values(part).some(namesSelfContact);
+  return Object.values(part).some(namesLater);
 }
 
 async function join(): Promise<void> {
@@ -31,7 +34,7 @@ async function join(): Promise<void> {
 
 /** Joins what the message needs, once; what failed is tried anew with the next message. */
 export async function prepareFor(message: unknown): Promise<void> {
-  if (!namesSelfContact(message)) return;
+  if (!namesLater(message)) return;
   joined ??= join();
   joined.catch(() => {
     joined = null;

@@ -3,7 +3,7 @@
 
 import { granted, Refused, type RunStatus, read } from '../bindings/answers';
 import { FLOATS_PER_VERTEX, frameViews, type Scalar } from '../bindings/frame';
-import type { Collider } from '../bindings/geometry';
+import type { Collider, Surface, Triple } from '../bindings/geometry';
 import {
   ENERGY_NUMBERS,
   type EnergyNumbers,
@@ -43,9 +43,35 @@ function readEnergy(simulation: SimulationHandle): EnergyNumbers | null {
   return Object.fromEntries(named) as EnergyNumbers;
 }
 
-function readColliders(simulation: SimulationHandle): Collider[] {
-  const answer = read<{ colliders: Collider[] }>(simulation.colliders());
-  return answer.ok ? answer.colliders : [];
+/** Meshes among the solids of a scene. */
+function readSurfaces(simulation: SimulationHandle): Surface[] {
+  type Written = { positions_m: Triple[]; triangles: Triple[] };
+  const answer = read<{ surfaces: Written[] }>(simulation.surfaces());
+  return (answer.ok ? answer.surfaces : []).map(({ positions_m, triangles }) => {
+    const positions = new Float32Array(positions_m.flat());
+    const sum = positions.reduce((all, x, index) => all + (index + 1) * x, 0);
+    return {
+      id: `${positions.length} ${triangles.length} ${sum}`,
+      positions,
+      triangles: new Uint32Array(triangles.flat()),
+    };
+  });
+}
+
+function readColliders(simulation: SimulationHandle, surfaces: readonly Surface[]): Collider[] {
+  type Told = Exclude<Collider, { shape: 'mesh' }> | ToldMesh;
+  type ToldMesh = { shape: 'mesh'; offset_m: Triple; surface: number };
+  const answer = read<{ colliders: Told[] }>(simulation.colliders());
+  const found: Collider[] = [];
+  for (const told of answer.ok ? answer.colliders : []) {
+    if (told.shape !== 'mesh') {
+      found.push(told);
+      continue;
+    }
+    const surface = surfaces[told.surface];
+    if (surface) found.push({ ...told, surface });
+  }
+  return found;
 }
 
 /** Size of a buffer for the frames of the present mesh. */
@@ -57,6 +83,7 @@ function frameBytes(simulation: SimulationHandle): number {
 export class MotionCore extends ModuleCore<PleatModule, ToMotion, FromMotion> {
   private simulation: SimulationHandle | null = null;
   private loaded: SceneSummary | null = null;
+  private surfaces: Surface[] = [];
   private isHeld = false;
   private hasLedger = false;
   private nBytes = 0; // size of the buffers of frames
@@ -87,7 +114,8 @@ export class MotionCore extends ModuleCore<PleatModule, ToMotion, FromMotion> {
     ];
     fill(run, buffers[0], scalar);
     const triangles = run.triangles().slice();
-    const colliders = readColliders(run);
+    this.surfaces = readSurfaces(run);
+    const colliders = readColliders(run, this.surfaces);
     this.post({ type: 'loaded', summary, triangles, buffers, scalar, numbers, colliders }, [
       triangles.buffer,
       ...buffers,
@@ -149,7 +177,7 @@ export class MotionCore extends ModuleCore<PleatModule, ToMotion, FromMotion> {
     const hasEnded = code !== 0;
     const report = hasEnded || message.wantsNumbers ? this.readReport(run) : null;
     const energy = readEnergy(run);
-    const colliders = readColliders(run);
+    const colliders = readColliders(run, this.surfaces);
     this.post(
       { type: 'frame', count, buffer, torn, scalar, hasEnded, report, energy, colliders },
       torn ? [buffer, torn.spare, torn.triangles.buffer] : [buffer],
