@@ -3,13 +3,14 @@
 namespace pleat {
 
 extern const Command kBenchRun, kBenchReference, kBenchDeform, kBenchInbetween, kBenchPlans,
-    kBenchTogether, kBenchRestarts, kBenchResponse, kBenchRows, kBenchLimit;
+    kBenchTogether, kBenchRestarts, kBenchResponse, kBenchRows, kBenchLimit, kBenchDepth;
 
 namespace {
 
-constexpr const Command* kParts[] = {
-    &kBenchRun,      &kBenchReference, &kBenchDeform,   &kBenchInbetween, &kBenchPlans,
-    &kBenchTogether, &kBenchRestarts,  &kBenchResponse, &kBenchRows,      &kBenchLimit};
+constexpr const Command* kParts[] = {&kBenchRun,       &kBenchReference, &kBenchDeform,
+                                     &kBenchInbetween, &kBenchPlans,     &kBenchTogether,
+                                     &kBenchRestarts,  &kBenchResponse,  &kBenchRows,
+                                     &kBenchLimit,     &kBenchDepth};
 
 Outcome bench_command(Arguments arguments) {
   const Command& part = take_command(kParts, arguments, "bench");

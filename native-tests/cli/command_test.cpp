@@ -277,7 +277,7 @@ TEST_CASE("command: bad input is one sentence that names the place, and exit sta
       {{"sweep", "--reference", "rigid_chain", "--set", "/pins=[]"}, "scene.json: /pins: expected"},
       {{"bench"},
        "pleat: bench: expected run, reference, deform, inbetween, plans, together, restarts, "
-       "response, rows or limit after it, got "},
+       "response, rows, limit or depth after it, got "},
       {{"run", "--out", std::string(300, 'x')}, "xxx: expected a folder that can be read, got "},
       {{"run", "--overwrite"}, "pleat: --overwrite: expected --out, "},
       {{"run", "-x"}, "pleat: -x: unknown option"},
