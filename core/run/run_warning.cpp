@@ -61,13 +61,13 @@ std::string sentence(const RunWarning& warning) {
           time, share);
     case RunWarning::Kind::held_back:
       return formatted(
-          "from %.3g s on, %.3g %% of the vertices were held back from passing through cloth: "
-          "their motion is the guard's, not the method's",
+          "from %.3g s on, %.3g %% of the vertices were held back from passing through cloth "
+          "or a solid: their motion is the guard's, not the method's",
           time, share);
     case RunWarning::Kind::blocked:
       return formatted(
-          "from %.3g s on, cloth was pulled through itself, and what pulled was held back in %.3g "
-          "substeps",
+          "from %.3g s on, cloth was pulled through itself or a solid, and what pulled was held "
+          "back in %.3g substeps",
           time, warning.value);
   }
   return "";
