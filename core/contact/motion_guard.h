@@ -39,7 +39,7 @@ class Movers {
   const std::array<VertexId, 2>& carriers(VertexId vertex) const { return parents_[vertex]; }
   /// Moves a vertex; of one that hangs both parents, as far.
   void move(VertexId vertex, const Vec3& way, Positions& places);
-  /// The same, and does not note it as moved. Runs for every pair that presses, hence inline.
+  /// Moves it and does not note it as moved. Runs for every pair that presses, hence inline.
   void shift(VertexId vertex, const Vec3& way, Positions& places) const {
     if (children_.empty())
       places.col(vertex) += way;

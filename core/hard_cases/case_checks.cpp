@@ -187,8 +187,7 @@ double depth_in_solids(const Simulation& simulation) {
   const Positions& now = simulation.state().positions;
   double depth = model.contact ? model.contact->penetration(now, simulation.time()).depth : 0;
   if (model.meets_bodies())
-    depth = std::max(
-        depth, BodyDepth(model.self_contact->bodies).at(now, simulation.time()).depth);
+    depth = std::max(depth, BodyDepth(model.self_contact->bodies).at(now, simulation.time()).depth);
   return depth;
 }
 

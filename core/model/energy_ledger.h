@@ -25,7 +25,7 @@ class EnergyLedger {
     double air = 0;
     double pins = 0;
     double contact = 0;
-    double cloth_contact = 0;  ///< by cloth on itself, inelastic
+    double cloth_contact = 0;  ///< cloth on itself, which is inelastic
     double tears = 0;
 
     double sum() const {

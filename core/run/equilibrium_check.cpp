@@ -182,7 +182,7 @@ void EquilibriumCheck::press_from_both_sides() {
   }
 }
 
-// What gravity would bring onto cloth within the step counts as near.
+// Cloth counts as near that gravity would bring there within the step.
 void EquilibriumCheck::choose_pairs(const State& state, double time,
                                     const ClothContact* cloth_contact) {
   pairs_.reset();

@@ -39,10 +39,10 @@ class PairHold {
     int pair = -1;  // number in the list of pairs
     std::array<Term, 8> terms;
     std::size_t n_terms = 0;
-    double stiffness = 0;            // of R in the directions that are held [kg]
+    double stiffness = 0;            // R's in the directions that are held [kg]
     Mat3 resistance = Mat3::Zero();  // R [kg]
     Vec3 velocity{0, 0, 0};          // u, what prescribed vertices do taken off [m/s]
-    Vec3 normal{0, 0, 0};            // from the first side to the second
+    Vec3 normal{0, 0, 0};            // unit, towards the second side
     Vec3 force{0, 0, 0};             // remembered one, among the loads [N]
     double mass = 0;                 // resistance to a change of velocity, alone [kg]
     bool may_be_freed = true;
@@ -97,7 +97,7 @@ class PairHold {
   const ClothModel& model_;
   const ClothContact& contact_;
   Positions begins_,
-      ends_;  // of bodies too; ways that go on as they do, pins where they will be [m]
+      ends_;                     // vertices of cloth and bodies; cloth goes on as it does [m]
   Eigen::VectorXd resistances_;  // each vertex's [kg]
   std::vector<Held> held_, lost_;
 };
