@@ -137,23 +137,10 @@ bool MotionGuard::is_free(WatchedPair& pair, const Positions& begins, const Posi
   return ends_apart(pair.normal);
 }
 
-// Takes the missing gap along the normal of the closest points alone, from each side as much as it
-// approaches the pair's own mean motion. Momentum that this takes is given to all four alike: their
-// differences, and so the gap, stay.
-void MotionGuard::shorten(const WatchedPair& pair, const Positions& begins, Positions& ends) {
-  const SurfacePair& sides = pair.sides;
-  const Vec3 closest =
-      closest_points(pair_differences(sides, begins), sides.n_differences()).difference;
-  const double distance = closest.norm();
-  if (!(distance > 0)) return;
-  const Vec3 n = closest / distance;
-  const double gap = levels(sides, n, begins).gap();
-  const Levels at_end = levels(sides, n, ends);
-  const double wanted = std::min(gap, std::max(kKept * gap, kFloor * pair.gap));
-  const double missing = wanted - at_end.gap();
-  if (!(missing > 0)) return;
-
-  const int n_first = sides.n_first();
+// Each side takes as much as it approaches the pair's own mean motion; what is prescribed takes
+// nothing.
+double MotionGuard::share_of_first(const SurfacePair& sides, const Vec3& n, const Positions& begins,
+                                   const Positions& ends) const {
   double mass = 0, mean = 0;
   bool all_free = true;
   std::array<double, 2> fastest = {-std::numeric_limits<double>::infinity(),
@@ -163,7 +150,7 @@ void MotionGuard::shorten(const WatchedPair& pair, const Positions& begins, Posi
     const VertexId v = sides.vertices[static_cast<std::size_t>(k)];
     const double way = n.dot(ends.col(v) - begins.col(v));
     const double inverse = movers_.inverse_mass(v);
-    const bool is_second = k >= n_first;
+    const bool is_second = k >= sides.n_first();
     if (inverse > 0) {
       mass += 1 / inverse;
       mean += way / inverse;
@@ -173,35 +160,52 @@ void MotionGuard::shorten(const WatchedPair& pair, const Positions& begins, Posi
     }
     fastest[is_second ? 1 : 0] = is_second ? std::min(fastest[1], way) : std::max(fastest[0], way);
   }
-  mean = mass > 0 ? mean / mass : 0;
-  double share = 0.5;  // share of the first side
-  if (all_free) {
-    const double first = std::max(0.0, fastest[0] - mean);
-    const double second = std::max(0.0, mean - fastest[1]);
-    if (first + second > 0) share = first / (first + second);
-  } else if (gives[0] != gives[1]) {
-    share = gives[0] ? 1 : 0;
-  }
-  const double first_level = at_end.highest_first - share * missing;
-  const double second_level = at_end.lowest_second + (1 - share) * missing;
+  if (!all_free) return gives[0] == gives[1] ? 0.5 : gives[0] ? 1 : 0;
+  mean /= mass;
+  const double first = std::max(0.0, fastest[0] - mean);
+  const double second = std::max(0.0, mean - fastest[1]);
+  return first + second > 0 ? first / (first + second) : 0.5;
+}
+
+// Momentum that this takes is given to all four alike: their differences, and so the gap, stay.
+void MotionGuard::open(const SurfacePair& sides, const Vec3& n, double missing, double share,
+                       Positions& ends) {
+  const Levels levels_now = levels(sides, n, ends);
+  const double first_level = levels_now.highest_first - share * missing;
+  const double second_level = levels_now.lowest_second + (1 - share) * missing;
   const Vec3 origin = ends.col(sides.vertices[0]);
   std::array<double, 4> ways{};
-  double taken = 0;
+  double mass = 0, taken = 0;
+  bool all_free = true;
   for (int k = 0; k < 4; ++k) {
     const auto at = static_cast<std::size_t>(k);
     const double inverse = movers_.inverse_mass(sides.vertices[at]);
+    all_free = all_free && inverse > 0;
     if (inverse == 0) continue;
     const double level = n.dot(ends.col(sides.vertices[at]) - origin);
-    ways[at] =
-        k < n_first ? std::min(0.0, first_level - level) : std::max(0.0, second_level - level);
+    ways[at] = k < sides.n_first() ? std::min(0.0, first_level - level)
+                                   : std::max(0.0, second_level - level);
     taken += ways[at] / inverse;
+    mass += 1 / inverse;
   }
   const double back = all_free ? -taken / mass : 0;
-  for (int k = 0; k < 4; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    if (movers_.inverse_mass(sides.vertices[at]) > 0 && ways[at] + back != 0)
-      movers_.move(sides.vertices[at], (ways[at] + back) * n, ends);
-  }
+  for (std::size_t k = 0; k < 4; ++k)
+    if (movers_.inverse_mass(sides.vertices[k]) > 0 && ways[k] + back != 0)
+      movers_.move(sides.vertices[k], (ways[k] + back) * n, ends);
+}
+
+// Takes the missing gap along the normal of the closest points alone.
+void MotionGuard::shorten(const WatchedPair& pair, const Positions& begins, Positions& ends) {
+  const SurfacePair& sides = pair.sides;
+  const Vec3 closest =
+      closest_points(pair_differences(sides, begins), sides.n_differences()).difference;
+  const double distance = closest.norm();
+  if (!(distance > 0)) return;
+  const Vec3 n = closest / distance;
+  const double gap = levels(sides, n, begins).gap();
+  const double wanted = std::min(gap, std::max(kKept * gap, kFloor * pair.gap));
+  const double missing = wanted - levels(sides, n, ends).gap();
+  if (missing > 0) open(sides, n, missing, share_of_first(sides, n, begins, ends), ends);
 }
 
 // Looks at those that failed before, too: what is prescribed moves for none.

@@ -77,6 +77,11 @@ class MotionGuard {
 
  private:
   bool is_free(WatchedPair& pair, const Positions& begins, const Positions& ends);
+  /// Share of what a gap lacks that the first side is to give.
+  double share_of_first(const SurfacePair& sides, const Vec3& n, const Positions& begins,
+                        const Positions& ends) const;
+  /// Opens the gap along n by what it lacks at the end.
+  void open(const SurfacePair& sides, const Vec3& n, double missing, double share, Positions& ends);
   void shorten(const WatchedPair& pair, const Positions& begins, Positions& ends);
   bool settle(const Positions& begins, Positions& ends);
   bool hold_clusters(const Positions& begins, Positions& ends);
