@@ -333,6 +333,9 @@ HeldBack MotionGuard::hold_all(const Positions& begins, Positions& ends) {
 }
 
 HeldBack MotionGuard::hold(const Positions& begins, Positions& ends, double begin, double end) {
+  // Contacts may have pushed ways out of the corridors that near pairs were listed for.
+  if (!pairs_.cover(ends, end) && !pairs_.add(begins, ends, begin, end))
+    return hold_all(begins, ends);
   proposed_ = ends;
   movers_.clear_moved();
   bool is_met = true;

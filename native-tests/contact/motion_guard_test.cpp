@@ -211,6 +211,19 @@ TEST_CASE("motion_guard: where prescribed ways cross, nothing there moves, and i
   CHECK(layers.crossings(ends) == 0);
 }
 
+TEST_CASE("motion_guard: what was pushed out of its corridor meets pairs that were not listed",
+          "[contact]") {
+  const Layers layers(2, 0.05, 2);
+  Guarded guarded(layers);
+  Positions ends = layers.begins;
+  REQUIRE(guarded.pairs.list(layers.begins, ends, 0, kSubstep));
+  REQUIRE(guarded.pairs.pairs().empty());
+  ends.row(1).head(layers.n_each()).array() += 0.06;
+  CHECK(guarded.guard.hold(layers.begins, ends, 0, kSubstep).n_vertices > 0);
+  CHECK(layers.crossings(ends) == 0);
+  CHECK(layers.meetings(layers.begins, ends) == 0);
+}
+
 TEST_CASE("motion_guard: held as one, cloth keeps its shape and its momentum", "[contact]") {
   const Layers layers(2, 0.002);
   Guarded guarded(layers);
