@@ -24,11 +24,11 @@ Vec3 PairResponse::Pressing::difference(const Positions& places) const {
   return sum;
 }
 
-void PairResponse::Pressing::set_rub(const Vec3& wanted) {
+void PairResponse::Pressing::set_rub(const Vec3& impulse) {
   const double most = friction * push;
-  const double squared = wanted.squaredNorm();
+  const double squared = impulse.squaredNorm();
   slips = !(squared < most * most);
-  rub = squared > most * most ? Vec3(most / std::sqrt(squared) * wanted) : wanted;
+  rub = squared > most * most ? Vec3(most / std::sqrt(squared) * impulse) : impulse;
 }
 
 PairResponse::Pressing PairResponse::pressing(const WatchedPair& pair, const PairContact& contact,

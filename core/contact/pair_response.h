@@ -45,7 +45,7 @@ class PairResponse {
     bool slips = false;   // friction is all that there can be
 
     /// Sets the friction, as far as Coulomb's cone goes.
-    void set_rub(const Vec3& wanted);
+    void set_rub(const Vec3& impulse);
 
     /// The second side's point less the first's.
     Vec3 difference(const Positions& places) const;
