@@ -5,6 +5,7 @@ import { runParts } from './parts/bench-parts.mjs';
 import { bodies } from './parts/contact-bodies.mjs';
 import { absent, cost } from './parts/contact-cost.mjs';
 import { crossings } from './parts/contact-crossings.mjs';
+import { rest } from './parts/contact-rest.mjs';
 
-const parts = { crossings, cost, absent, bodies };
+const parts = { crossings, rest, cost, absent, bodies };
 await runParts('contact', 'whether cloth passes through itself, and what a guard costs', parts);

@@ -7,7 +7,7 @@ import { BadInput, tell } from './bench-options.mjs';
 import { atMost, hasFinished, largest, mean, sideBySide, table } from './bench-rows.mjs';
 import { commit, inFolder, ran } from './command.mjs';
 import { kStretches, kTimes } from './contact-columns.mjs';
-import { kForAll, kForSome, withContact } from './contact-scenes.mjs';
+import { kForAll, kForSome, kOfMeshes, kTakeMeshes, withContact } from './contact-scenes.mjs';
 import { contestant } from './contestants.mjs';
 import { explicitOnes, steppers } from './same-cloth-runs.mjs';
 import { kStep } from './sheets.mjs';
@@ -117,5 +117,6 @@ export async function crossings() {
   };
   await runAll(kForAll, steppers());
   await runAll(kForSome, kInEveryScene);
+  await runAll(kOfMeshes, kTakeMeshes);
   return { rows, goals: crossingGoals(rows), text: table(rows, kColumns) };
 }

@@ -1,5 +1,15 @@
 // Scenes in which cloth comes to lie on itself, hangs in folds beside itself, or is twisted.
 import { changed, garmentScene } from './assets.mjs';
+import {
+  funnel,
+  pouredRibbon,
+  ribbonPile,
+  tenFolds,
+  tenLayers,
+  threeFolds,
+  threeSheets,
+} from './contact-stacks.mjs';
+import { closedTube, rolledTube, spunSheet, tightKnot } from './contact-turned.mjs';
 import { explicitOnes } from './same-cloth-runs.mjs';
 import { kStep } from './sheets.mjs';
 
@@ -129,16 +139,42 @@ function twist(columns = 10) {
   };
 }
 
-/** A skirt on a figure that begins to walk. */
-function skirt() {
-  const scene = garmentScene('skirt', 'walk');
-  const { caption, method, ...rest } = changed(scene, { '/refinement/level': 0 });
-  return { ...rest, name: 'skirt walking', duration_s: 2 };
+/**
+ * A garment on a figure that begins to walk, to squat or to turn, by the model that all steppers
+ * take. Trousers start with crossings, which the guard keeps.
+ */
+function worn(garment, motion, doing) {
+  const scene = garmentScene(garment, motion);
+  const { caption, method, model, ...rest } = changed(scene, { '/refinement/level': 0 });
+  return { ...rest, name: `${garment} ${doing}`, duration_s: 2 };
 }
 
+const kGarments = Object.fromEntries(
+  ['skirt', 'trousers'].flatMap((garment) =>
+    Object.entries({ walk: 'walking', squat: 'squatting', turn: 'turning' }).map(
+      ([motion, doing]) => [`${garment}_${motion}`, () => worn(garment, motion, doing)],
+    ),
+  ),
+);
+
+export const kTakeMeshes = ['implicit', 'newton'];
+export const kNeedThreads = ['projective', 'xpbd', 'multigrid'];
+
 /** Scenes for every stepper, and those for the steppers that most runs are made with. */
-export const kForAll = { tablecloth, napkin, edge };
-export const kForSome = { curtain, twist, skirt };
+export const kForAll = { tablecloth, napkin, edge, funnel, threeFolds };
+export const kForSome = {
+  curtain,
+  twist,
+  spunSheet,
+  rolledTube,
+  tightKnot,
+  tenFolds,
+  pouredRibbon,
+  ...kGarments,
+};
+
+/** Scenes of a mesh, which threads do not follow. */
+export const kOfMeshes = { closedTube, tenLayers, threeSheets, ribbonPile };
 
 /** A sheet let go from the horizontal, held along an edge: it meets itself nowhere. */
 export const swinging = (n) => ({

@@ -1,7 +1,9 @@
 import { describe, expect, it } from 'vitest';
 import { costGoals } from '../../../bench/parts/contact-cost.mjs';
 import { crossingGoals } from '../../../bench/parts/contact-crossings.mjs';
-import { kForAll, kForSome, withContact } from '../../../bench/parts/contact-scenes.mjs';
+import { knotPlaces, wavePlaces } from '../../../bench/parts/contact-places.mjs';
+import { heightOf, outOfOrder, restGoals } from '../../../bench/parts/contact-rest.mjs';
+import { kForAll, kForSome, kOfMeshes, withContact } from '../../../bench/parts/contact-scenes.mjs';
 
 const distance = (a, b) => Math.hypot(...a.map((x, k) => x - b[k]));
 const lines = (goals) => goals.map(({ line }) => line);
@@ -42,6 +44,65 @@ describe('scenes of self-contact', () => {
     expect(2 * Math.hypot(across - width_m / 2, out)).toBeLessThan(width_m);
   });
 
+  it('start as long between their vertices as they are at rest, a knot within a fifth', () => {
+    for (const [name, strain] of Object.entries({
+      threeFolds: 1e-12,
+      tenFolds: 1e-12,
+      spunSheet: 1e-12,
+      rolledTube: 1e-12,
+      tightKnot: 0.2,
+    })) {
+      const { cloth, start } = { ...kForAll, ...kForSome }[name]();
+      const { rows, columns, width_m, height_m } = cloth.sheet;
+      const at = (row, column) => start.positions_m[row * (columns + 1) + column];
+      expect(start.positions_m, name).toHaveLength((rows + 1) * (columns + 1));
+      const shares = [];
+      for (let row = 0; row < rows; ++row)
+        for (let column = 0; column < columns; ++column) {
+          const here = at(row, column);
+          shares.push((distance(here, at(row + 1, column)) * rows) / height_m);
+          shares.push((distance(here, at(row, column + 1)) * columns) / width_m);
+        }
+      expect(Math.max(...shares), name).toBeLessThan(1 + strain);
+      expect(Math.min(...shares), name).toBeGreaterThan(1 - strain);
+    }
+  });
+
+  it('have a knot whose strands are apart by its ribbon’s width where it meets itself', () => {
+    const columns = 2;
+    const places = knotPlaces(columns, 120, 0.01, 0.02);
+    const row = (v) => Math.floor(v / (columns + 1));
+    let least = Number.POSITIVE_INFINITY;
+    places.forEach((place, v) => {
+      for (let w = 0; w < v; ++w)
+        if (row(v) - row(w) > 10) least = Math.min(least, distance(place, places[w]));
+    });
+    expect(least).toBeGreaterThan(0.015);
+    expect(least).toBeLessThan(0.03);
+  });
+
+  it('have waves whose slope is as said, and which end as deep as they began', () => {
+    const { places, height } = wavePlaces(1, 400, 0.01, 2, 0.8, 3);
+    const [y, z] = [1, 2].map((k) => places.at(-1)[k]);
+    expect(z).toBeCloseTo(0, 12);
+    expect(y).toBeCloseTo(3 - height, 12);
+    expect(height / 4).toBeCloseTo(0.8463, 4); // J0(0.8)
+  });
+
+  it('have sheets that nothing joins, one upon the other', () => {
+    const { positions_m, triangles } = kOfMeshes.threeSheets(12).cloth.mesh;
+    expect(positions_m).toHaveLength(3 * 13 * 13);
+    expect(triangles).toHaveLength(3 * 2 * 12 * 12);
+    const sheetOf = (v) => Math.floor(v / 169);
+    for (const [a, b, c] of triangles) {
+      expect(sheetOf(b)).toBe(sheetOf(a));
+      expect(sheetOf(c)).toBe(sheetOf(a));
+    }
+    expect(outOfOrder(positions_m, triangles, 169)).toBe(0);
+    const swapped = positions_m.with(84, positions_m[84 + 169]).with(84 + 169, positions_m[84]);
+    expect(outOfOrder(swapped, triangles, 169)).toBeGreaterThan(0);
+  });
+
   it('are looked at after every step, and switched on and off', () => {
     const on = withContact(kForAll.edge(), { stepper: 'rk4' }, true);
     expect(on.record.every_s).toBe(on.method.step_s);
@@ -53,7 +114,44 @@ describe('scenes of self-contact', () => {
   });
 });
 
+describe('a height along a direction', () => {
+  it('is where the triangle is met, and none beside it or behind', () => {
+    const triangle = [
+      [-1, 2, -1],
+      [3, 2, -1],
+      [-1, 2, 3],
+    ];
+    expect(heightOf(triangle, [0, 1, 0])).toBeCloseTo(2, 12);
+    expect(heightOf(triangle.toReversed(), [0, 0.5, 0])).toBeCloseTo(4, 12);
+    expect(heightOf(triangle, [0, -1, 0])).toBeNaN();
+    expect(heightOf(triangle, [2, 1, 2])).toBeNaN();
+  });
+});
+
 describe('goals of self-contact', () => {
+  it('are of the stepper that comes to rest last, and want every run finished', () => {
+    const rest = (name, more) => ({
+      case: name,
+      status: 'ok',
+      rest_energy_j: 1e-9,
+      drift_mm: 0.01,
+      crossings: 0,
+      ...more,
+    });
+    const ten = [rest('ten_layers'), rest('ten_layers', { rest_energy_j: 2e-6, drift_mm: 0.3 })];
+    const three = [rest('three_sheets', { out_of_order: 1 }), rest('three_sheets')];
+    expect(lines(restGoals([...ten, ...three]))).toEqual([
+      'goal rest_energy_ten_layers_J 0.000002 at-most 0.000001 short',
+      'goal drift_ten_layers_mm 0.3 at-most 0.1 short',
+      'goal rest_energy_three_sheets_J 1e-9 at-most 0.000001 ok',
+      'goal drift_three_sheets_mm 0.01 at-most 0.1 ok',
+      'goal out_of_order_three_sheets 1 at-most 0 short',
+      'goal crossings_at_rest 0 at-most 0 ok',
+    ]);
+    const refused = rest('ten_layers', { status: 'refused' });
+    expect(lines(restGoals([refused, ...three]))[0]).toMatch(/short$/);
+  });
+
   const row = (more) => ({
     scene: 'napkin',
     status: 'ok',
