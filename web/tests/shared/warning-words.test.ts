@@ -8,13 +8,13 @@ describe('warnings of contact', () => {
 
   it('tell the share of the vertices that the guard held back', () => {
     expect(words('held_back', 0.12)).toBe(
-      'The guard of contact holds back 12 % of the vertices, from 0.40 s on: their motion there is not the method’s own.',
+      'The contact guard holds back 12 % of the vertices, from 0.40 s on: their motion is not the method’s.',
     );
   });
 
   it('tell in how many substeps pins stayed behind', () => {
     expect(words('blocked', 12)).toBe(
-      'The cloth would be pulled through itself or a solid; what pulls stays behind: from 0.40 s on in 12 substeps.',
+      'Pins or solids would pull cloth through itself, and stay behind: from 0.40 s on in 12 substeps.',
     );
     expect(words('blocked', 1)).toMatch(/in one substep\.$/);
   });

@@ -35,8 +35,8 @@ export function warningSentence({ kind, time_s, value, bound }: RunWarning): str
     case 'unbalanced':
       return `Steps that leave too much unsolved hold the cloth up, not its threads: ${since} ${percent(value)} of its weight is unbalanced.`;
     case 'held_back':
-      return `The guard of contact holds back ${percent(value)} of the vertices, ${since}: their motion there is not the method’s own.`;
+      return `The contact guard holds back ${percent(value)} of the vertices, ${since}: their motion is not the method’s.`;
     case 'blocked':
-      return `The cloth would be pulled through itself or a solid; what pulls stays behind: ${since} in ${substepsText(value)}.`;
+      return `Pins or solids would pull cloth through itself, and stay behind: ${since} in ${substepsText(value)}.`;
   }
 }

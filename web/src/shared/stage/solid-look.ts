@@ -1,10 +1,8 @@
 // How stages show solids: the one place that tells them apart.
 import {
   Box3,
-  BoxGeometry,
   BufferAttribute,
   BufferGeometry,
-  CapsuleGeometry,
   Matrix4,
   Quaternion,
   SphereGeometry,
@@ -35,23 +33,45 @@ const FLOOR_COSINE = 0.99;
 /** Share of its size at which a body is drawn, so that flat triangles on it do not cut into it. */
 const DRAWN = 0.985;
 
+/** A ball whose halves are drawn apart: the band below its equator is the side. */
 function capsuleGeometry(axis: Vector3, radius: number): BufferGeometry {
-  const up = new Vector3(0, 1, 0);
   const length = axis.length();
-  const turn = new Quaternion();
-  if (length > 0) turn.setFromUnitVectors(up, axis.clone().divideScalar(length));
-  return new CapsuleGeometry(radius, length, 20, 64).applyQuaternion(turn);
+  const up = new Vector3(0, 1, 0);
+  const turn = new Quaternion().setFromUnitVectors(up, length ? axis.clone().normalize() : up);
+  const geometry = new SphereGeometry(radius, 64, 48);
+  const places = geometry.getAttribute('position');
+  for (let i = 0; i < places.count; ++i) {
+    const y = places.getY(i);
+    places.setY(i, y + (y < 0 ? -length : length) / 2);
+  }
+  return geometry.applyQuaternion(turn);
 }
 
 /** Each triangle has a normal of its own: edges stay sharp. */
 function meshGeometry(positions: Float32Array, triangles: Uint32Array): BufferGeometry {
-  const indexed = new BufferGeometry();
-  indexed.setAttribute('position', new BufferAttribute(positions, 3));
-  indexed.setIndex(new BufferAttribute(triangles, 1));
-  const geometry = indexed.toNonIndexed();
+  const geometry = new BufferGeometry()
+    .setAttribute('position', new BufferAttribute(positions, 3))
+    .setIndex(new BufferAttribute(triangles, 1))
+    .toNonIndexed();
   geometry.computeVertexNormals();
   return geometry;
 }
+
+/** Corners of the triangles of a box, by bits: 1 is ahead along x, 2 along y, 4 along z. */
+const BOX_CORNERS = '023031457476015054267273046062137175';
+
+function boxGeometry(size: Triple): BufferGeometry {
+  const corners = Array.from({ length: 8 }, (_, k) =>
+    size.map((side, axis) => (((k >> axis) & 1) - 0.5) * side),
+  );
+  return meshGeometry(
+    new Float32Array(corners.flat()),
+    new Uint32Array([...BOX_CORNERS].map(Number)),
+  );
+}
+
+/** Whole micrometres are the same wherever it is, so that one that moves is not built anew. */
+const micrometres = (axis: Vector3) => axis.toArray().map((part) => Math.round(1e6 * part));
 
 export function lookOf(solid: Collider): SolidLook {
   switch (solid.shape) {
@@ -72,14 +92,17 @@ export function lookOf(solid: Collider): SolidLook {
       const x = new Vector3(...solid.x_direction);
       const y = new Vector3(...solid.y_direction);
       const turn = new Matrix4().makeBasis(x, y, x.clone().cross(y));
-      const size = new Vector3(...solid.size_m).multiplyScalar(DRAWN);
-      const told = [x, y].flatMap((axis) => axis.toArray().map((part) => Math.round(1e6 * part)));
-      const build = () => new BoxGeometry(...size.toArray()).applyMatrix4(turn);
+      const build = () => boxGeometry(solid.size_m).applyMatrix4(turn).scale(DRAWN, DRAWN, DRAWN);
       const box = new Box3()
         .setFromCenterAndSize(new Vector3(), new Vector3(...solid.size_m))
         .applyMatrix4(turn)
         .translate(new Vector3(...solid.centre_m));
-      const body = { form: `box ${solid.size_m} ${told}`, centre: solid.centre_m, box, build };
+      const body = {
+        form: `box ${solid.size_m} ${micrometres(x)} ${micrometres(y)}`,
+        centre: solid.centre_m,
+        box,
+        build,
+      };
       return { body, floor: null };
     }
     case 'mesh': {
@@ -90,12 +113,10 @@ export function lookOf(solid: Collider): SolidLook {
     }
     case 'capsule': {
       const [a, b] = [new Vector3(...solid.a_m), new Vector3(...solid.b_m)];
-      const middle = a.clone().add(b).divideScalar(2);
+      const middle = a.clone().lerp(b, 0.5);
       const axis = b.clone().sub(a);
-      // Whole micrometres are the same wherever it is, so that one that moves is not built anew.
-      const told = axis.toArray().map((part) => Math.round(1e6 * part));
       const body = {
-        form: `capsule ${solid.radius_m} ${told}`,
+        form: `capsule ${solid.radius_m} ${micrometres(axis)}`,
         centre: middle.toArray(),
         box: new Box3().setFromPoints([a, b]).expandByScalar(solid.radius_m),
         build: () => capsuleGeometry(axis, DRAWN * solid.radius_m),

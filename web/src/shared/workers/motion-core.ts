@@ -49,12 +49,8 @@ function readSurfaces(simulation: SimulationHandle): Surface[] {
   const answer = read<{ surfaces: Written[] }>(simulation.surfaces());
   return (answer.ok ? answer.surfaces : []).map(({ positions_m, triangles }) => {
     const positions = new Float32Array(positions_m.flat());
-    const sum = positions.reduce((all, x, index) => all + (index + 1) * x, 0);
-    return {
-      id: `${positions.length} ${triangles.length} ${sum}`,
-      positions,
-      triangles: new Uint32Array(triangles.flat()),
-    };
+    const id = `${positions.reduce((all, x, index) => all + (index + 1) * x, 0)}`;
+    return { id, positions, triangles: new Uint32Array(triangles.flat()) };
   });
 }
 
@@ -62,16 +58,11 @@ function readColliders(simulation: SimulationHandle, surfaces: readonly Surface[
   type Told = Exclude<Collider, { shape: 'mesh' }> | ToldMesh;
   type ToldMesh = { shape: 'mesh'; offset_m: Triple; surface: number };
   const answer = read<{ colliders: Told[] }>(simulation.colliders());
-  const found: Collider[] = [];
-  for (const told of answer.ok ? answer.colliders : []) {
-    if (told.shape !== 'mesh') {
-      found.push(told);
-      continue;
-    }
-    const surface = surfaces[told.surface];
-    if (surface) found.push({ ...told, surface });
-  }
-  return found;
+  return (answer.ok ? answer.colliders : []).flatMap((told): Collider[] => {
+    if (told.shape !== 'mesh') return [told];
+    const surface = surfaces[told.surface] as Surface;
+    return [{ ...told, surface }];
+  });
 }
 
 /** Size of a buffer for the frames of the present mesh. */
