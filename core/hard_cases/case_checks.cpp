@@ -6,6 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/contact/body_depth.h"
+#include "core/error/self_crossings.h"
 #include "core/model/elasticity.h"
 #include "core/model/momentum.h"
 #include "core/model/stretch.h"
@@ -298,6 +299,16 @@ CaseCheck mass_kept(double share) {
                 [first = start.model().masses.sum()](const Simulation& simulation) {
                   return std::abs(simulation.model().masses.sum() / first - 1);
                 });
+          }};
+}
+
+CaseCheck no_crossings() {
+  return {"edges of the cloth that go through it", 0, [](const Simulation& start, double) {
+            const auto crossings = std::make_shared<SelfCrossings>(
+                start.triangles(), start.rest_positions(), start.model().hanging);
+            return std::make_unique<LargestOf>([crossings](const Simulation& simulation) {
+              return static_cast<double>(crossings->count(simulation.state().positions));
+            });
           }};
 }
 

@@ -45,6 +45,9 @@ CaseCheck tears();
 /// Change of the mass, in shares of its first value.
 CaseCheck mass_kept(double share);
 
+/// Edges of the cloth that go through its faces after any step (SelfCrossings): none.
+CaseCheck no_crossings();
+
 /// How deep a vertex is inside of a solid at the end [m].
 CaseCheck outside_solids(double depth);
 

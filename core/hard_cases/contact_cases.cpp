@@ -26,6 +26,14 @@ std::vector<HardCase> contact_cases() {
        .breaks = "Cloth that begins inside of a solid is thrown out with whatever speed it takes.",
        .seconds = {1.5, 10},
        .checks = {stays_within(5), outside_solids(1e-9), end_strain_at_most(0.35)}},
+      {.name = "folded_napkin",
+       .breaks = "Cloth dropped folded falls through itself where its halves meet on a ball.",
+       .seconds = {0.5, 5},
+       .checks = {no_crossings(), speeds_explained(), stays_within(3), outside_solids(1e-9)}},
+      {.name = "twisted_sheet",
+       .breaks = "Cloth that is wrung by three turns ends up in front of itself and behind.",
+       .seconds = {3, 10},
+       .checks = {no_crossings(), stays_within(3)}},
   };
 }
 

@@ -157,6 +157,21 @@ TEST_CASE("case checks: a vertex that is held in a ball is as deep as it is", "[
   CHECK(found(outside_solids(0), sheet_scene(), 0.1) == 0);
 }
 
+// The lower half is turned up in front of the sheet, and its last row of cells goes through it.
+TEST_CASE("case checks: edges that go through cloth are counted at any time", "[hard_cases]") {
+  CHECK(no_crossings().bound == 0);
+  CHECK(found(no_crossings(), drifting({0, 3, 0}), 0.1) == 0);
+  Json json = sheet_scene();
+  json["cloth"]["sheet"]["rows"] = 4;
+  json["start"]["positions_m"] = Json::array();
+  for (const double y : {1.0, 0.5, 0.0, 0.4, 0.8})
+    for (const double x : {-0.5, 0.0, 0.5})
+      json["start"]["positions_m"].push_back({x, y, y == 0.4 ? 0.1 : y == 0.8 ? -0.1 : 0.0});
+  const double crossings = found(no_crossings(), json, 0.01);
+  CHECK(crossings > 0);
+  CHECK(crossings == std::round(crossings));
+}
+
 TEST_CASE("case checks: a velocity jumps by what a step changes it", "[hard_cases]") {
   CHECK(found(velocity_jumps_at_most(1), falling(), 0.5) == Approx(10 * kStep));
   CHECK(found(velocity_jumps_at_most(1), drifting({9, 0, 0}), 0.5) < 1e-9);
