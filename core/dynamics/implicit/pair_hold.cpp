@@ -71,6 +71,14 @@ void PairHold::take_in(const PairContact& contact, double h) {
   held_.push_back(held);
 }
 
+/// True where the closest points of a pair that has not pressed yet would end too near.
+bool PairHold::closes(const PairContact& contact, const WatchedPair& pair) const {
+  double gap = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    gap += contact.weights[k] * contact.normal.dot(ends_.col(pair.sides.vertices[k]));
+  return gap < pair.gap;
+}
+
 void PairHold::choose(const State& state, double time_end, double h) {
   begins_ = contact_.all_begins();
   ends_ = contact_.all_ends();
@@ -91,7 +99,8 @@ void PairHold::choose_from(const State& state, double time_end, double h) {
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const WatchedPair& pair = pairs[p];
     if (pair.force.isZero(0) && least_gap(pair.sides, pair.normal, ends_) >= pair.gap) continue;
-    if (const auto contact = pair_contact(pair, static_cast<int>(p), begins_)) take_in(*contact, h);
+    const auto contact = pair_contact(pair, static_cast<int>(p), begins_);
+    if (contact && (!pair.force.isZero(0) || closes(*contact, pair))) take_in(*contact, h);
   }
 }
 
@@ -149,34 +158,44 @@ void PairHold::add_remembered(Positions& forces) const {
     for (const Term& term : held.parts()) forces.col(term.vertex) += term.factor * held.force;
 }
 
+/// Frees a pair that would pull; true where it did.
+bool PairHold::free_pulling(Held& held, const Vec3& force) const {
+  const double weight = model_.gravity.norm() * held.mass;
+  if (!held.may_be_freed || held.normal.dot(force) >= -kLeastPairPull * weight) return false;
+  held.may_be_freed = held.sticks = false;
+  held.resistance.setZero();
+  held.force.setZero();
+  return true;
+}
+
+/// Lets a pair slip that would be rubbed beyond friction; true where it did.
+bool PairHold::let_slip(Held& held, const Vec3& force) const {
+  const double weight = model_.gravity.norm() * held.mass;
+  const double pressing = std::max(held.normal.dot(force), 0.0);
+  const Vec3 rubbing = force - part_along(held.normal, force);
+  const double friction = contact_.friction(contact_.pairs()[static_cast<std::size_t>(held.pair)]);
+  if (!held.sticks || rubbing.norm() <= friction * pressing + kLeastPairExcess * weight)
+    return false;
+  held.sticks = false;
+  held.resistance = held.stiffness * held.normal * held.normal.transpose();
+  held.force = part_along(held.normal, held.force) + friction * pressing * rubbing.normalized();
+  return true;
+}
+
+// Those that pull go first: others may stick once nothing pulls.
 std::span<const PairHold::Held> PairHold::let_loose(const Positions& velocities, double h) {
   lost_.clear();
-  for (Held& held : held_) {
-    if (!held.may_be_freed && !held.sticks) continue;
-    const Vec3 force = force_of(held, velocities, h);
-    const double weight = model_.gravity.norm() * held.mass;
-    const double pressing = held.normal.dot(force);
-    const Vec3 rubbing = force - pressing * held.normal;
-    const double friction =
-        contact_.friction(contact_.pairs()[static_cast<std::size_t>(held.pair)]);
-    Held lost = held;
-    if (held.may_be_freed && pressing < -kLeastPairPull * weight) {
-      held.may_be_freed = held.sticks = false;
-      held.resistance.setZero();
-      held.force.setZero();
-    } else if (held.sticks &&
-               rubbing.norm() > friction * std::max(pressing, 0.0) + kLeastPairExcess * weight) {
-      held.sticks = false;
-      held.resistance = held.stiffness * held.normal * held.normal.transpose();
-      held.force = part_along(held.normal, held.force) +
-                   friction * std::max(pressing, 0.0) * rubbing.normalized();
-    } else {
-      continue;
+  const auto look = [&](const auto& changes) {
+    for (Held& held : held_) {
+      Held lost = held;
+      if (!changes(held, force_of(held, velocities, h))) continue;
+      lost.resistance -= held.resistance;
+      lost.force -= held.force;
+      lost_.push_back(lost);
     }
-    lost.resistance -= held.resistance;
-    lost.force -= held.force;
-    lost_.push_back(lost);
-  }
+  };
+  look([this](Held& held, const Vec3& force) { return free_pulling(held, force); });
+  if (lost_.empty()) look([this](Held& held, const Vec3& force) { return let_slip(held, force); });
   return lost_;
 }
 

@@ -93,6 +93,9 @@ class PairHold {
  private:
   void choose_from(const State& state, double time_end, double h);
   void take_in(const PairContact& contact, double h);
+  bool closes(const PairContact& contact, const WatchedPair& pair) const;
+  bool free_pulling(Held& held, const Vec3& force) const;
+  bool let_slip(Held& held, const Vec3& force) const;
 
   const ClothModel& model_;
   const ClothContact& contact_;
