@@ -26,10 +26,11 @@ OTHER_MATRICES = re.compile(r"[cz]t?_(change|cholmod|ldl|ll|simplicial)_|"
                             r"([rp]_)?cholmod_transpose_unsym$|cholmod_(aat|colamd)$|colamd")
 # What is only called where a scene asks for self-contact, boxes or meshes, as Binaryen writes names. Whether there is
 # any is asked of an optional in every scene.
-SELF_CONTACT = re.compile(r"(?!.*__optional).*pleat::(ClothContact|MotionGuard|Movers|WatchedPair|SurfacePair|NearPairs|"
+SELF_CONTACT = re.compile(r"(?!.*__optional|pleat::EquilibriumCheck).*pleat::"
+                          r"(ClothContact|PairHold|MotionGuard|Movers|WatchedPair|SurfacePair|NearPairs|SurfaceCrossing|"
                           r"Corridors|MovingBox|PairResponse|SignedDistance|BodyDepth)|"
                           r"pleat::(separator|separates|closest_points|pair_way|json_cloth_contact|"
-                          r"crossings|own_crossings|cloth_in_bodies|box_body|enclosed_volume|read_surface)\\28|"
+                          r"crossings|own_crossings|surface_error|cloth_in_bodies|box_body|enclosed_volume|read_surface)\\28|"
                           r"pleat::\\28anonymous\\20namespace\\29::(part_separator|hull_normal|nearest_with|plane_point)\\28")
 STRIPPED = ["--post-emscripten", "--strip-debug", "--strip-producers"]
 

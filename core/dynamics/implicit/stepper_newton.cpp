@@ -162,7 +162,7 @@ bool StepperNewton::let_loose() {
   if (freed.empty() && lost.empty()) return false;
   matrix_.set_values(base_);
   add_holds(freed, -1);
-  add_pairs(lost, -1);
+  if (!lost.empty()) add_pairs(lost, -1);
   base_.coeffs() = matrix_.lower().coeffs();
   return true;
 }

@@ -589,7 +589,7 @@ TEST_CASE("scene file: every number of a rich scene arrives in SI units", "[scen
   CHECK(scene.air->wind.velocity == Vec3(3, 0, 1));
   CHECK(scene.air->wind.gust_intensity == 0.3);
   CHECK(scene.air->wind.seed == 7);
-  REQUIRE(scene.colliders.size() == 3);
+  REQUIRE(scene.colliders.size() == 4);
   CHECK(
       std::get<Plane>(scene.colliders[0].shape).normal.isApprox(Vec3(0, 1, 1).normalized(), 1e-15));
   CHECK(scene.colliders[0].friction == 0.7);
