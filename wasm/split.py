@@ -30,7 +30,7 @@ SELF_CONTACT = re.compile(r"(?!.*__optional|pleat::EquilibriumCheck).*pleat::"
                           r"(ClothContact|PairHold|MotionGuard|Movers|WatchedPair|SurfacePair|NearPairs|SurfaceCrossing|"
                           r"Corridors|MovingBox|PairResponse|SignedDistance|BodyDepth)|"
                           r"pleat::(separator|separates|closest_points|pair_way|json_cloth_contact|"
-                          r"crossings|own_crossings|surface_error|cloth_in_bodies|box_body|enclosed_volume|read_surface)\\28|"
+                          r"crossings|own_crossings|cloth_in_bodies|box_body|enclosed_volume|read_surface)\\28|"
                           r"pleat::\\28anonymous\\20namespace\\29::(part_separator|hull_normal|nearest_with|plane_point)\\28")
 STRIPPED = ["--post-emscripten", "--strip-debug", "--strip-producers"]
 
