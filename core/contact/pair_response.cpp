@@ -106,12 +106,9 @@ void PairResponse::start(const Positions& begins, Positions& ends, double h) {
 void PairResponse::push(Positions& ends) {
   for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
     double most = 0;
-    if (sweep % 2 == 0)
-      for (auto contact = contacts_.begin(); contact != contacts_.end(); ++contact)
-        most = std::max(most, solve_once(*contact, ends));
-    else
-      for (auto contact = contacts_.rbegin(); contact != contacts_.rend(); ++contact)
-        most = std::max(most, solve_once(*contact, ends));
+    for (std::size_t k = 0; k < contacts_.size(); ++k)
+      most = std::max(most,
+                      solve_once(contacts_[sweep % 2 == 0 ? k : contacts_.size() - 1 - k], ends));
     if (most < kTolerance) break;
   }
 }
