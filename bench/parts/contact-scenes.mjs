@@ -10,27 +10,12 @@ import {
   threeSheets,
 } from './contact-stacks.mjs';
 import { closedTube, rolledTube, spunSheet, tightKnot } from './contact-turned.mjs';
+import { kAir, kFloor, sheet } from './contact-world.mjs';
 import { explicitOnes } from './same-cloth-runs.mjs';
 import { kStep } from './sheets.mjs';
 
-const kFloor = { plane: { point_m: [0, 0, 0], normal: [0, 1, 0] } };
-const kAir = { air: {} };
-
 /** Pins move so within these times [s]. */
 const eased = (offset_m, begin_s, end_s) => ({ kind: 'ease', offset_m, begin_s, end_s });
-
-/** A rectangle of `columns` x `rows` cells, each of `cell` [m]. */
-const sheet = (columns, rows, cell, origin_m, warp_direction, weft_direction = [1, 0, 0]) => ({
-  sheet: {
-    width_m: columns * cell,
-    height_m: rows * cell,
-    columns,
-    rows,
-    origin_m,
-    warp_direction,
-    weft_direction,
-  },
-});
 
 /** Falls on a ball and hangs down around it in folds. */
 function tablecloth(n = 20) {

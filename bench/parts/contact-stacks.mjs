@@ -1,23 +1,10 @@
 // Scenes in which layers of cloth lie on each other: stacks, piles, cloth that gathers in a funnel.
 import { sheetsMesh, zigzagPlaces } from './contact-places.mjs';
+import { kAir, kFloor, sheet } from './contact-world.mjs';
 
-const kFloor = { plane: { point_m: [0, 0, 0], normal: [0, 1, 0] } };
-const kAir = { air: {} };
 const kBall = { centre_m: [0, 0, 0], radius_m: 0.2 };
 
 const range = (n) => Array.from({ length: n }, (_, k) => k);
-
-const sheet = (columns, rows, cell, origin_m, warp_direction) => ({
-  sheet: {
-    width_m: columns * cell,
-    height_m: rows * cell,
-    columns,
-    rows,
-    origin_m,
-    warp_direction,
-    weft_direction: [1, 0, 0],
-  },
-});
 
 /** n x n cells each, level, the lowest at `height` [m], `gap` [m] apart. */
 const level = (layers, n, cell, height, gap) =>
