@@ -182,7 +182,7 @@ bool PairHold::let_slip(Held& held, const Vec3& force) const {
   return true;
 }
 
-// Those that pull go first: others may stick once nothing pulls.
+// Pairs that pull go first: others may stick once nothing pulls.
 std::span<const PairHold::Held> PairHold::let_loose(const Positions& velocities, double h) {
   lost_.clear();
   const auto look = [&](const auto& changes) {
